@@ -23,7 +23,7 @@ namespace orbwatch::app {
 
 class Fleet;
 
-/// Where and how to publish.
+/// The [dds] part of the site file.
 struct DdsSettings {
   static constexpr std::string_view kName = "dds",
                                     kText = "DDS participant for the machine controller";
@@ -31,13 +31,12 @@ struct DdsSettings {
   bool enabled = true;
   int domain = 0;                   ///< DDS domain, ROS_DOMAIN_ID of ROS 2; 0 to 230
   std::string prefix = "orbwatch";  ///< topics are rt/<prefix>/...
-  std::string name{};  ///< in the list of the domain's appliances; empty: that of the host
-  std::optional<SecuritySettings>
-      security{};                  ///< none: every participant of the domain is admitted
-  std::optional<bool> commands{};  ///< accept them; not stated: if there is security
+  std::string name{};               ///< name in the fleet list; empty: the host name
+  /// Nullopt: every participant of the domain is admitted.
+  std::optional<SecuritySettings> security{};
+  std::optional<bool> commands{};  ///< accept commands; nullopt: only with security
   JpegSettings jpeg{};
-  /// Cyclone DDS' settings of the network, its interfaces and peers; empty: what CYCLONEDDS_URI
-  /// says.
+  /// Cyclone DDS' network settings, such as interfaces and peers; empty: those of CYCLONEDDS_URI.
   std::filesystem::path profile{};
   RosGeneration ros = RosGeneration::Iron;
 };
@@ -77,7 +76,7 @@ void visit(Visitor& v, DdsSettings& dds) {
   v.table("jpeg", dds.jpeg, "JPEG encoding of the compressed topics");
 }
 
-/// Who may command over DDS, in words; empty: nobody. Reentrant.
+/// Participants that may command over DDS, in words; empty: none. Reentrant.
 std::string commanders(const DdsSettings& settings);
 
 /// True: it receives the notices of the domain's appliances.

@@ -11,10 +11,10 @@
 namespace orbwatch::app {
 namespace {
 
-/// Between two checks of the host's addresses.
+/// Period of the checks of the host's addresses.
 constexpr auto kCheckPeriod = std::chrono::seconds(1);
 
-/// One by which other computers reach this one, if there is any.
+/// An address by which other computers reach this one; empty: none.
 std::string reachable(const std::set<std::string>& addresses) {
   const auto other = std::ranges::find_if(
       addresses, [](const std::string& address) { return !address.starts_with("127."); });
@@ -162,7 +162,7 @@ void DdsSink::leave() {
   type_watch_.close();
   discovery_.close();
   commands_.close();
-  for (const auto& view : views_) view->close();  // before selected_, to which they write, too
+  for (const auto& view : views_) view->close();  // before selected_, because they write to it, too
   for (const auto& camera : cameras_) camera->close();
   selected_.close();
   selected_info_.close();
@@ -216,7 +216,8 @@ void DdsSink::accept_frames(const hal::FrameSet& set) {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const hal::Frame& frame = set.frames[i];
     if (!frame || set.held[i]) continue;
-    // By the set's conversion, so that a frame exposed with the set has the stamp of its views.
+    // Converted with the set's offset, so that a frame exposed with the set has the stamp of its
+    // views.
     const auto exposed = utc_ + (frame->metadata.exposure_start - set.stamp);
     cameras_[i]->accept(frame, to_message(exposed));
   }
@@ -229,8 +230,8 @@ PictureNeeds DdsSink::needs(std::size_t view, hal::TimePoint stamp) {
   return needs;
 }
 
-/// Those of all topics of a view are the same but for the rate. Those that wait to be written as
-/// the selected view, or as the thumbnail, may be of the one that was selected before.
+/// All topics of a view hold the same view unless their rate is limited. Views that wait to be
+/// written as the selected view, or as the thumbnail, may belong to the view selected before.
 KeptViews DdsSink::keeps() const {
   const std::size_t waiting = PictureTopics::waiting(settings_.jpeg);
   return {waiting, waiting + 1 + threads_->count()};

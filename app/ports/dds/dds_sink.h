@@ -31,21 +31,22 @@
 namespace orbwatch::app {
 
 /// Publishes views and cameras' pictures as sensor_msgs/Image and CompressedImage, the status as
-/// ProcessState and diagnostics, and events, under ROS 2 names as a ROS 2 node, and carries
-/// commands out; see topic_names.h. Everything of a frame set has the same UTC stamp, so that
-/// readers can pair images and state exactly. Pictures are encoded and written on shared threads;
-/// the rest is published on the sink's, which also carries commands out, joins the domain, retries
-/// until it succeeds, and rejoins when the addresses of its interfaces change. Thread rule: as
+/// ProcessState and diagnostics, and events, under ROS 2 names as a ROS 2 node, and executes
+/// commands; see topic_names.h. All samples of a frame set have the same UTC stamp, so that readers
+/// can pair images and state exactly. Pictures are encoded and written on shared threads;
+/// everything else is published on the sink's thread, which also executes commands, joins the
+/// domain with retries, and rejoins when the addresses of its interfaces change. Thread rule: as
 /// Sink; statistics() is thread-safe; start may run while views are passed to accept().
 class DdsSink final : public Sink {
  public:
   using Addresses = std::function<std::optional<std::vector<NetworkAddress>>()>;
 
   /// `names` in the order of View::index and of FrameSet::frames; the name of a view or camera is a
-  /// topic part and the frame_id of its images. `handler` carries commands out, on a thread of the
-  /// sink; without one there is no command topic. `addresses` are checked once a second.
-  /// `identity` and `fleet` as FleetMember. `views` and `cameras` by place in `names`; those that
-  /// are missing are published as default ones.
+  /// topic part and the frame_id of its images. `handler` executes commands, on a thread of the
+  /// sink; without a handler there is no command topic. `addresses` are checked once a second.
+  /// `identity` and `fleet`: see
+  /// FleetMember. `views` and `cameras` are in the order of `names`; missing ones are published with
+  /// the defaults.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
           Addresses addresses = network_addresses,
           std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
@@ -54,15 +55,15 @@ class DdsSink final : public Sink {
           std::vector<PublishedView> views = {}, std::vector<PublishedCamera> cameras = {});
   ~DdsSink() override;
 
-  /// Starts the sink's thread. Does nothing when disabled or running. Errors: a domain or name that
-  /// is not allowed, or a duplicate name. A missing network is no error.
+  /// Starts the sink's thread. Does nothing when disabled or running. Errors: an invalid domain or
+  /// name, or a duplicate name. A missing network is not an error.
   Result<> start() override;
   void stop() override;
-  /// Whether it is in the domain.
+  /// Returns whether the sink has joined the domain.
   bool works() const override { return joined_; }
   std::chrono::nanoseconds cpu_time() const override;
 
-  /// Topics with their readers.
+  /// Table of the topics with their readers.
   std::vector<InterfaceTable> tables() const override;
   std::vector<InterfaceMetric> metrics() const override;
 
@@ -76,7 +77,8 @@ class DdsSink final : public Sink {
   DdsStatistics statistics() const;
 
  private:
-  /// Every alarm may be acknowledged and change in one frame set: room for four of those.
+  /// Every alarm may be acknowledged and change in one frame set; the queue holds the events of
+  /// four frame sets.
   static constexpr std::size_t kMaxNotices = 8 * signals::kMaxAlarms;
 
   Result<> check() const;
@@ -87,7 +89,7 @@ class DdsSink final : public Sink {
   void leave();
   void keep_joined();
   void run();
-  /// UTC of a stamp, the same for the same stamp; on the pipeline's thread.
+  /// Converts a stamp to UTC, equal results for equal stamps; on the pipeline's thread.
   TimeMessage utc(hal::TimePoint stamp);
 
   const DdsSettings settings_;
@@ -95,7 +97,7 @@ class DdsSink final : public Sink {
   const std::shared_ptr<hal::SharedThreads> threads_;
   const Addresses addresses_;
 
-  // Between the pipeline's thread and others.
+  // Shared by the pipeline's thread and others.
   std::vector<std::unique_ptr<ViewTopics>> views_;
   std::vector<std::unique_ptr<CameraTopics>> cameras_;
   PictureTopics selected_;
@@ -107,20 +109,21 @@ class DdsSink final : public Sink {
   std::atomic<std::uint64_t> joins_{0};
   std::atomic<std::uint64_t> mistyped_{0};
 
-  // The pipeline's thread only.
+  // Used by the pipeline's thread only.
   hal::TimePoint stamp_;
   std::chrono::system_clock::time_point utc_;
   std::size_t selected_view_ = 0;
 
-  // The sink's thread while it runs, else the owner's.
+  // Used by the sink's thread while it runs, else by the owner.
   Participant participant_;
   std::atomic<bool> joined_{false};
-  std::vector<NetworkAddress> tried_addresses_;  ///< at the newest attempt to join
+  std::vector<NetworkAddress> tried_addresses_;  ///< addresses at the newest attempt to join
   InterfaceWatch interfaces_;
-  hal::TimePoint next_check_;  ///< of the addresses
-  hal::TimePoint next_try_;    ///< to join, unless the addresses change before
+  hal::TimePoint next_check_;  ///< time of the next check of the addresses
+  /// Time of the next attempt to join, unless the addresses change before.
+  hal::TimePoint next_try_;
   hal::BackOff back_off_;
-  std::string refusal_;  ///< why the newest attempt failed; empty: it succeeded
+  std::string refusal_;  ///< reason why the newest attempt failed; empty: it succeeded
   StatusTopics status_topics_;
   FleetMember fleet_;
   DiscoveryInfo discovery_;

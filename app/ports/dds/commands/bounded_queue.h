@@ -14,7 +14,7 @@ namespace orbwatch::app {
 template <class T, std::size_t Capacity>
 class BoundedQueue {
  public:
-  /// Whether there was room.
+  /// Appends `value`; returns false if the queue is full.
   bool put(T value) {
     const std::lock_guard lock(mutex_);
     if (size_ == Capacity) {
@@ -25,7 +25,7 @@ class BoundedQueue {
     return true;
   }
 
-  /// The oldest value, if there is one.
+  /// Removes and returns the oldest value; nullopt: the queue is empty.
   std::optional<T> try_take() {
     const std::lock_guard lock(mutex_);
     if (size_ == 0) return std::nullopt;

@@ -10,7 +10,7 @@ constexpr std::size_t kLongestName = std::ranges::max(kCommands, {}, [](const Co
                                        return info.name.size();
                                      }).name.size();
 
-/// "point_view takes 4 arguments: view yaw pitch h_fov".
+/// Usage in one line: "point_view takes 4 arguments: view yaw pitch h_fov".
 std::string usage(const CommandInfo& info) {
   const std::size_t count = info.argument_count();
   std::string text = std::string(info.name) + " takes " + std::to_string(count) +
@@ -25,7 +25,7 @@ std::string usage(const CommandInfo& info) {
 
 CommandRequest request_of(const CommandMessage& message) {
   CommandRequest request{{message.client, message.number}, {}, {}, message.arguments._length};
-  // One more than the longest name: a name that was cut stays unknown.
+  // Copies one character more than the longest name, so that a cut name stays unknown.
   for (const char* c = message.name; *c != '\0' && request.name.size() <= kLongestName; ++c) {
     request.name += *c;
   }

@@ -16,7 +16,7 @@ using CommandResultMessage = orbwatch_msgs_msg_dds__CommandResult_;
 /// Identifies a request.
 using RequestId = CommandId;
 
-/// A request as received, cut to the longest that any command could need.
+/// A request as received, cut to the longest length that any command needs.
 struct CommandRequest {
   RequestId id;
   std::string name;
@@ -32,11 +32,11 @@ struct CommandAnswer {
   bool operator==(const CommandAnswer&) const = default;
 };
 
-/// Copies a message from the network, no more of it than any command could need.
+/// Copies a message from the network, at most as much as any command needs.
 CommandRequest request_of(const CommandMessage& message);
 
-/// Carries a request out by `handler` on this thread, or refuses it: a number of the id is 0, the
-/// command is unknown, its arguments are not allowed. The answer does not quote the sender.
+/// Executes a request by `handler` on this thread, or refuses it: a number of the id is 0, the
+/// command is unknown, or its arguments are not allowed. The answer does not quote the sender.
 CommandAnswer carry_out(const CommandRequest& request, const CommandHandler& handler);
 
 }  // namespace orbwatch::app

@@ -20,7 +20,7 @@ CommandService::CommandService(const std::string& prefix, CommandHandler handler
 CommandService::~CommandService() { close(); }
 
 Result<> CommandService::open(const Entity& participant) {
-  // Answers first: a client may send as soon as it discovers the reader.
+  // Opens the answers first, because a client may send as soon as it discovers the reader.
   if (const auto opened = results_.open(participant, command_qos()); !opened) return opened;
   show_order_of_calls();
   const Listener listener(dds_create_listener(this));
@@ -41,7 +41,7 @@ void CommandService::receive(dds_entity_t reader, void* service) {
   const auto take = [&self](const void* sample, const dds_sample_info_t&) {
     self.queue_.put(request_of(*static_cast<const CommandMessage*>(sample)));
   };
-  // Fails only while the reader is being deleted.
+  // The call fails only while the reader is being deleted.
   for (auto taken = take_samples(reader, take); taken && *taken > 0;) {
     taken = take_samples(reader, take);
   }
@@ -60,7 +60,7 @@ void CommandService::serve(const CommandRequest& request) {
   } else {
     ++repeated_;
   }
-  // A client waits for the answer to its newest request only.
+  // A client waits only for the answer to its newest request.
   if (verdict != RequestLedger::Verdict::Late) send(request.id, ledger_.answer(request.id));
 }
 
@@ -77,7 +77,7 @@ CommandAnswer CommandService::answer_new(const CommandRequest& request) {
 }
 
 void CommandService::send(const RequestId& id, const CommandAnswer& answer) {
-  // The C API takes no const pointers, but a write changes nothing.
+  // The C API takes non-const pointers, but a write changes nothing.
   const CommandResultMessage message{id.client, id.number,
                                      static_cast<std::uint16_t>(answer.result),
                                      const_cast<char*>(answer.text.c_str())};

@@ -16,26 +16,25 @@
 
 namespace orbwatch::app {
 
-/// Receives commands over DDS, carries each out at most once and answers it.
-/// The receive thread of DDS puts requests into a bounded queue and never waits; the owner's thread
-/// carries them out.
-/// Thread rule: one owner; counts() is thread-safe.
+/// Receives commands over DDS, executes each at most once and answers it. The receive thread of DDS
+/// puts requests into a bounded queue and never waits; the owner's thread executes them. Thread
+/// rule: one owner; counts() is thread-safe.
 class CommandService {
  public:
-  /// More than these in a second are refused as Busy.
+  /// Limit of commands per second; further ones are refused as Busy.
   static constexpr int kMaxPerSecond = 50;
 
-  /// `record` outlives this; requests in it are not carried out again. `wake` is called on the
-  /// receive thread of DDS when there is something to serve.
+  /// `record` outlives this; requests in it are not executed again. `wake` is called on the receive
+  /// thread of DDS when there are requests to serve.
   CommandService(const std::string& prefix, CommandHandler handler, CommandRecord& record,
                  std::function<void()> wake);
   ~CommandService();
 
-  /// Reads the command topic until close(). Error: DDS refuses.
+  /// Reads the command topic until close(). Error: a failure of DDS.
   Result<> open(const Entity& participant);
-  /// Carries out what was received.
+  /// Executes the received requests.
   void serve();
-  /// Carries out what was received before.
+  /// Executes the received requests, then closes the topics.
   void close();
 
   CommandCounts counts() const;
@@ -56,10 +55,10 @@ class CommandService {
   TopicReader requests_;
   TopicWriter results_;
 
-  // Between the receive thread of DDS and the owner's.
+  // Shared by the receive thread of DDS and the owner's.
   BoundedQueue<CommandRequest, kMaxWaiting> queue_;
 
-  // The owner's thread only; kept when it is opened again.
+  // Used by the owner's thread only; kept across open() and close().
   RequestLedger ledger_{CommandRecord::kMaxClients};
   RateLimit rate_{kMaxPerSecond, std::chrono::seconds(1)};
 

@@ -10,15 +10,15 @@
 
 namespace orbwatch::app {
 
-/// The newest answer to each client, so that no request is carried out twice: networks repeat
-/// samples, and clients repeat requests whose answers they missed. Of bounded size. Thread-bound.
+/// The newest answer to each client, so that no request is executed twice: networks repeat samples,
+/// and clients repeat requests whose answers they missed. The size is bounded. Thread-bound.
 class RequestLedger {
  public:
-  /// At most `clients` are kept; the one that has been silent longest is evicted first.
+  /// `clients`: limit; the client that has been silent longest is evicted first.
   explicit RequestLedger(std::size_t clients) : capacity_(clients) {}
 
   enum class Verdict {
-    New,    ///< newer than all of its client before
+    New,    ///< newer than all previous requests of its client
     Again,  ///< its client's newest, already answered
     Late    ///< older than its client's newest
   };
@@ -28,10 +28,10 @@ class RequestLedger {
     return id.number == entry->newest.number ? Verdict::Again : Verdict::Late;
   }
 
-  /// The answer to a request that is judged Again.
+  /// The answer to a request whose verdict is Again.
   const CommandAnswer& answer(const RequestId& id) const { return find(id.client)->answer; }
 
-  /// Keeps the answer to a request that is judged New.
+  /// Keeps the answer to a request whose verdict is New.
   void record(const RequestId& id, CommandAnswer answer) {
     if (const auto entry = find(id.client); entry != entries_.end()) {
       entries_.erase(entry);

@@ -46,11 +46,11 @@ void print(const Image& image, const dds_sample_info_t& info) {
 /// Waits for data and prints it; returns the number of pictures.
 int read(dds_entity_t reader, dds_entity_t wait_set) {
   checked("wait", dds_waitset_wait(wait_set, nullptr, 0, DDS_INFINITY));
-  void* sample = nullptr;  // DDS lends its own
+  void* sample = nullptr;  // null: DDS loans a sample
   dds_sample_info_t info;
   const dds_return_t count = checked("take", dds_take(reader, &sample, &info, 1, 1));
   if (count == 0) return 0;
-  const bool valid = info.valid_data;  // not when only the writer's state changed
+  const bool valid = info.valid_data;  // false if only the writer's state changed
   if (valid) print(*static_cast<const Image*>(sample), info);
   checked("return", dds_return_loan(reader, &sample, count));
   return valid ? 1 : 0;

@@ -17,7 +17,7 @@ static_assert(sizeof(ApplianceMessage::name) == ApplianceIdentity::kLongestName 
 
 template <std::size_t size>
 void copy(const std::string& text, char (&place)[size]) {
-  plain_text(text, size - 1).copy(place, size - 1);  // the rest is zero
+  plain_text(text, size - 1).copy(place, size - 1);  // the rest stays zero
 }
 
 template <std::size_t size>

@@ -12,7 +12,7 @@ namespace orbwatch::app {
 namespace {
 
 constexpr auto kPeriod = std::chrono::seconds(1);
-/// Of thumbnails.
+/// Rate of thumbnails.
 constexpr double kPicturesPerSecond = 0.25;
 
 ApplianceIdentity named(ApplianceIdentity identity) {

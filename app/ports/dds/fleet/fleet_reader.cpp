@@ -10,7 +10,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// They are taken as they arrive: more than may arrive at once.
+/// Depth of the readers' histories; samples are taken as they arrive, so it exceeds any burst.
 constexpr std::int32_t kDepth = 64;
 
 std::string text_of(const dds_guid_t& guid) {
@@ -23,7 +23,7 @@ std::string text_of(const dds_guid_t& guid) {
   return text;
 }
 
-/// Of the participant that wrote a sample; empty: it is gone already.
+/// Id of the participant that wrote a sample; empty: it has left already.
 std::string writer_of(dds_entity_t reader, const dds_sample_info_t& info) {
   const std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)> writer(
       dds_get_matched_publication_data(reader, info.publication_handle),
@@ -31,21 +31,23 @@ std::string writer_of(dds_entity_t reader, const dds_sample_info_t& info) {
   return writer ? text_of(writer->participant_key) : std::string();
 }
 
-/// Calls `accept(id, message)` with all that is there; `refuses` when it returns false.
+/// Calls `accept(id, message)` with each available sample; counts those for which it returns false
+/// as refused.
 template <class Message, class Accept>
 void take_all(dds_entity_t reader, Fleet& fleet, const Accept& accept) {
   const auto take = [&](const void* sample, const dds_sample_info_t& info) {
     const std::string id = writer_of(reader, info);
     if (!id.empty() && !accept(id, *static_cast<const Message*>(sample))) fleet.refuse();
   };
-  // Fails only while the reader is being deleted.
+  // The call fails only while the reader is being deleted.
   for (auto taken = take_samples(reader, take); taken && *taken > 0;) {
     taken = take_samples(reader, take);
   }
   show_order_of_calls();
 }
 
-/// Each is repeated in a second: not worth an acknowledgement from everybody to everybody.
+/// Best effort: each notice is repeated after a second, so acknowledgements between all appliances
+/// are not worthwhile.
 Qos notice_qos() {
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);

@@ -5,23 +5,23 @@
 
 namespace orbwatch::app {
 
-/// Hears the appliances of a domain, and sees their thumbnails while somebody looks. Everything is
-/// checked as soon as it arrives, on Cyclone's threads: nothing waits in queues that a sender could
-/// fill. Thread rule: one owner.
+/// Receives the announcements of the appliances of a domain, and their thumbnails while there are
+/// viewers. Samples are checked on arrival, on Cyclone's threads, so that a sender cannot fill
+/// queues. Thread rule: one owner.
 class FleetReader {
  public:
-  /// `fleet` outlives it.
+  /// `fleet` outlives the reader.
   explicit FleetReader(Fleet& fleet);
   ~FleetReader() { close(); }
   FleetReader(const FleetReader&) = delete;  // Cyclone DDS keeps its address
   FleetReader& operator=(const FleetReader&) = delete;
 
-  /// Error: DDS refuses.
+  /// Error: a failure of DDS.
   Result<> open(const Entity& participant);
   void close();
 
-  /// Begins or ends the reading of thumbnails, which makes the appliances send them. Error: DDS
-  /// refuses.
+  /// Starts or stops reading thumbnails, which makes the appliances send them. Error: a failure of
+  /// DDS.
   Result<> read_thumbnails(const Entity& participant, bool wanted);
 
  private:
@@ -33,7 +33,7 @@ class FleetReader {
   TopicReader thumbnails_;
 };
 
-/// The id in Fleet of a participant. Error: DDS refuses.
+/// Id of a participant in Fleet. Error: a failure of DDS.
 Result<std::string> appliance_id(dds_entity_t participant);
 
 }  // namespace orbwatch::app

@@ -15,7 +15,7 @@ class ThumbnailWriter final : public PictureWriter {
   void write(StampedPicture picture, TopicWriter& topic) override;
 
  private:
-  /// Bytes that every network has time for.
+  /// Quality that keeps thumbnails small enough for any network.
   JpegQuality quality_{{.quality = 75, .target_bytes = 6000}};
   Thumbnail thumbnail_;
   JpegEncoder encoder_;

@@ -33,7 +33,8 @@ LogLevel level_of(std::uint32_t priority) {
   return (priority & DDS_LC_WARNING) != 0 ? LogLevel::Warning : LogLevel::Info;
 }
 
-/// On any thread of Cyclone DDS or of ours that writes samples, so none waits for the log's reader.
+/// Called on any thread of Cyclone DDS, or of ours that writes samples; does not wait for the log's
+/// reader.
 void write_line(void*, const dds_log_data_t* line) {
   std::string_view message = line->message;
   if (is_of_a_bad_sample(message)) ++malformed;

@@ -27,7 +27,7 @@ Error dds_error(std::string_view what, dds_return_t code) {
 }
 
 void Entity::reset() {
-  // Fails only when the parent was deleted before, and this entity with it.
+  // The call fails only if the parent was deleted before, and this entity with it.
   if (handle_ > 0) dds_delete(handle_);
   handle_ = 0;
 }
@@ -38,7 +38,7 @@ Qos state_qos() { return newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL); }
 
 Qos event_qos() {
   Qos qos = newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL, kEventDepth);
-  // The history for late joiners has a depth of its own, 1 by default.
+  // The history for late joiners has its own depth, 1 by default.
   dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kEventDepth,
                               DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   return qos;

@@ -47,28 +47,28 @@ struct ListenerDeleter {
 };
 using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
 
-/// For pictures: reliable, the newest only, nothing for late joiners; a write waits for slow
-/// readers at most `kMaxBlockingTime`.
+/// QoS of pictures: reliable, keep last 1, volatile; a write waits for slow readers at most
+/// `kMaxBlockingTime`.
 Qos frame_qos();
-/// For the process state: as for pictures, but a late joiner gets the newest state.
+/// QoS of the process state: as for pictures, but a late joiner gets the newest state.
 Qos state_qos();
-/// For events: reliable; a late joiner gets the last kEventDepth.
+/// QoS of events: reliable; a late joiner gets the last kEventDepth.
 Qos event_qos();
 inline constexpr std::int32_t kEventDepth = 64;
-/// For commands and their results: reliable, nothing for late joiners.
+/// QoS of commands and their results: reliable, volatile.
 Qos command_qos();
 inline constexpr std::int32_t kCommandDepth = 16;
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{100};
 
-/// Shows a race detector that Cyclone DDS calls a listener after it was made and before it ends:
-/// Cyclone orders that by atomics of its own, which are invisible to the detector. Called before a
-/// listener is passed on, at begin and end of each call, and after the entity is gone.
+/// Declares to a race detector that Cyclone DDS calls a listener only between its creation and its
+/// end: Cyclone orders this by its own atomics, which are invisible to the detector. Called before
+/// a listener is passed on, at begin and end of each call, and after the entity is gone.
 /// Thread-safe.
 void show_order_of_calls();
 
 Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
                           const std::string& name);
-/// `listener`, if there is one, is copied; it may be called before this returns.
+/// Creates a writer. `listener`, if not null, is copied; it may be called before this returns.
 Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos,
                            const dds_listener_t* listener = nullptr);
 Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos,

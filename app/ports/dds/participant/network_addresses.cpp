@@ -23,7 +23,8 @@ std::string text_of(const in_addr& address) {
   return text.data();
 }
 
-/// The IPv4 address to which the UDP socket `file` is bound; nullopt: no such socket, or to all.
+/// The IPv4 address to which the UDP socket `file` is bound; nullopt: not such a socket, or bound
+/// to all addresses.
 std::optional<std::string> bound_address(int file) {
   int type = 0;
   socklen_t length = sizeof type;
@@ -58,7 +59,7 @@ std::optional<std::vector<NetworkAddress>> network_addresses() {
 
 std::set<std::string> bound_addresses() {
   std::set<std::string> addresses;
-  std::error_code unreadable;  // as without /proc: then no more are known
+  std::error_code unreadable;  // e.g. without /proc: further ones stay unknown
   std::filesystem::directory_iterator open_file("/proc/self/fd", unreadable);
   for (; open_file != std::filesystem::directory_iterator(); open_file.increment(unreadable)) {
     const std::string name = open_file->path().filename();
@@ -77,7 +78,8 @@ void InterfaceWatch::joined(const std::vector<NetworkAddress>& host,
     interfaces_.insert(address.interface);
     is_known = true;
   }
-  // Loopback for want of another: whichever comes may be the one.
+  // If no used interface is known, or the host has only loopback, any new interface may be
+  // suitable.
   watches_all_ = !is_known || std::ranges::all_of(host, is_loopback);
 }
 

@@ -15,35 +15,35 @@ struct NetworkAddress {
   bool operator==(const NetworkAddress&) const = default;
 };
 
-/// Those of the interfaces that are up, sorted; nullopt when the system call fails. An interface
+/// Addresses of the interfaces that are up, sorted; nullopt: the system call failed. An interface
 /// that loses its link keeps its address unless the network manager removes it. Thread-safe.
 std::optional<std::vector<NetworkAddress>> network_addresses();
 
 /// The addresses to which this process has bound UDP sockets. Cyclone DDS binds one to each address
-/// that it sends from, and has no call that tells them. Thread-safe.
+/// that it sends from, and has no call that returns them. Thread-safe.
 std::set<std::string> bound_addresses();
 
-/// On which interfaces a change of addresses makes a participant of a domain join again. Cyclone
-/// DDS chooses its interfaces, as its profile says, from the addresses that the host has when it
-/// joins, and ignores later ones. Others, of a VPN or a container, are no reason to leave.
+/// Decides whether a change of addresses makes a participant rejoin its domain. Cyclone DDS chooses
+/// its interfaces by its profile from the addresses that the host has when it joins, and ignores
+/// later ones. Changes of other interfaces, of a VPN or a container, do not require it to rejoin.
 /// Thread-bound.
 class InterfaceWatch {
  public:
-  /// A participant joined: the host had the addresses `host`, of which those in `bound` are used.
-  /// What was used earlier stays watched, as it may come back.
+  /// Reports a join: the host had the addresses `host`, of which those in `bound` are used.
+  /// Interfaces used earlier stay watched, because they may return.
   void joined(const std::vector<NetworkAddress>& host, const std::set<std::string>& bound);
 
-  /// A participant left, or could not join: every change may help.
+  /// Reports that a participant left or could not join; then every change counts.
   void left() { watches_all_ = true; }
 
-  /// Whether `after` differs from `before` where it counts.
+  /// Returns whether `after` differs from `before` in a watched interface.
   bool is_change(const std::vector<NetworkAddress>& before,
                  const std::vector<NetworkAddress>& after) const;
 
  private:
   std::vector<NetworkAddress> watched(const std::vector<NetworkAddress>& addresses) const;
 
-  std::set<std::string> interfaces_;  ///< used since the start
+  std::set<std::string> interfaces_;  ///< interfaces used since the start
   bool watches_all_ = true;
 };
 

@@ -8,14 +8,14 @@ namespace orbwatch::app {
 
 namespace {
 
-/// The highest domain whose ports lie below 65536 (DDSI-RTPS 2.5, 9.6.2.3: 7400 + 250 per domain),
-/// with room for participants.
+/// Highest domain whose ports are below 65536 (DDSI-RTPS 2.5, 9.6.2.3: 7400 + 250 per domain), with
+/// room for participants.
 constexpr int kMaxDomain = 230;
 
 /// SocketReceiveBufferSize: a picture arrives faster than it is read, and fragments beyond the
 /// socket's buffer are lost; the system grants net.core.rmem_max at most. MultipleReceiveThreads:
-/// to stop a thread with a socket of its own Cyclone DDS sends a packet to its own address, and
-/// hangs when that is gone. MaxSampleSize: without it one foreign sample could fill the memory.
+/// to stop a thread with its own socket Cyclone DDS sends a packet to its own address, and hangs if
+/// that address was removed. MaxSampleSize: without it one foreign sample could exhaust the memory.
 const std::string kDefaults =
     "<CycloneDDS><Domain><Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
     "<MaxSampleSize>" +
@@ -29,12 +29,12 @@ struct OwnDomain {
 };
 /// Also held while domains are created and deleted: Cyclone DDS refuses to create an existing one.
 std::mutex domains_mutex;
-std::map<int, OwnDomain> domains;  // by number
+std::map<int, OwnDomain> domains;  // domains by number
 
-/// One user of a domain of ours; the last one ends it.
+/// One use of a domain that we created; the last use deletes it.
 class DomainUse {
  public:
-  /// The caller holds the mutex.
+  /// Registers the use; the caller holds the mutex.
   explicit DomainUse(int number) : number_(number) { ++domains[number].users; }
   ~DomainUse() {
     const std::lock_guard lock(domains_mutex);
@@ -59,14 +59,14 @@ Error cannot_join(int domain, dds_return_t code) {
           "; is a network interface up, and the profile or CYCLONEDDS_URI, if set, valid?"};
 }
 
-/// A refusal by Cyclone's plugins, which log the reason.
+/// Error after a refusal by Cyclone's plugins, which log the reason.
 Error refused_by_plugins(int domain, const SecuritySettings& security) {
   return {
       dds_error("domain " + std::to_string(domain), DDS_RETCODE_NOT_ALLOWED_BY_SECURITY).message +
       "; do the documents in " + security.folder.string() + " follow DDS Security 1.1?"};
 }
 
-/// Creates the domain unless it exists; empty when other code of the process created it.
+/// Creates the domain unless it exists; empty: other code of the process created it.
 Result<std::shared_ptr<const void>> use_domain(int number, const std::filesystem::path& profile) {
   const std::lock_guard lock(domains_mutex);
   if (!domains.contains(number)) {
@@ -93,7 +93,7 @@ Result<> check_profile(const std::filesystem::path& profile) {
         "DDS profile " + profile.string() +
         ": must not have a comma in its path, which Cyclone DDS reads as the end; rename it");
   }
-  std::error_code ignored;  // an inaccessible file is none
+  std::error_code ignored;  // an inaccessible file counts as missing
   if (profile.empty() || std::filesystem::is_regular_file(profile, ignored)) return {};
   return fail("DDS profile " + profile.string() + ": no such file");
 }

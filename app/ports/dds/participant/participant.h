@@ -17,14 +17,14 @@ namespace orbwatch::app {
 /// dropped; a profile may override it.
 inline constexpr std::size_t kMaxSampleBytes = std::size_t{128} << 20;
 
-/// A DDS domain is 0 to 230.
+/// Checks that a DDS domain is 0 to 230.
 Result<> check_domain(int domain);
-/// A profile is an existing file whose path can be passed to Cyclone DDS, or empty: none.
+/// Checks that a profile is empty, or an existing file whose path can be passed to Cyclone DDS.
 Result<> check_profile(const std::filesystem::path& profile);
 
 /// One participant of a DDS domain. Participants of the same domain share its sockets, threads and
-/// configuration in this process. The last to leave closes them, so that joining again starts
-/// afresh, with other network interfaces for example. Thread-bound; join and leave of different
+/// configuration in this process. The last one to leave closes them, so that the next join starts
+/// anew, for example with other network interfaces. Thread-bound; join and leave of different
 /// participants may run at the same time.
 class Participant {
  public:
@@ -39,10 +39,10 @@ class Participant {
   /// Joins a domain with the settings of the file `profile`, or of CYCLONEDDS_URI without one; by
   /// default with receive buffers that hold pictures. The first participant of the process in a
   /// domain determines the settings of all. With `security` it communicates with authenticated
-  /// participants only; a process may have no second one of those in a domain: it would get the
-  /// rights of the first, and Cyclone DDS 0.10 leaks memory with both. `user_data` is announced to
-  /// others. Errors: as check_domain() and security_qos(), no usable network interface, invalid
-  /// CYCLONEDDS_URI or profile, no such file.
+  /// participants only; a process must not have a second secure participant in a domain: it would
+  /// get the rights of the first, and Cyclone DDS 0.10 leaks memory with both. `user_data` is
+  /// announced to others. Errors: those of check_domain() and security_qos(); no usable network
+  /// interface; an invalid CYCLONEDDS_URI or profile; a missing file.
   static Result<Participant> join(int domain,
                                   const std::optional<SecuritySettings>& security = std::nullopt,
                                   std::string_view user_data = {},
@@ -51,8 +51,9 @@ class Participant {
 
   const Entity& entity() const { return entity_; }
 
+  /// Empty: other code created the domain.
  private:
-  std::shared_ptr<const void> domain_;  ///< empty when other code created the domain
+  std::shared_ptr<const void> domain_;
   Entity entity_;
 };
 

@@ -13,8 +13,8 @@ class RateLimit {
  public:
   RateLimit(int limit, hal::Clock::duration period) : limit_(limit), period_(period) {}
 
-  /// When one more is admitted at `now`, the number withheld since the one admitted before; else
-  /// nullopt.
+  /// Admits or withholds one event at `now`. Admitted: returns the number withheld since the
+  /// previous admitted one; withheld: nullopt.
   std::optional<std::uint64_t> admit(hal::TimePoint now) {
     if (!start_ || now - *start_ >= period_) {
       start_ = now;
@@ -33,7 +33,7 @@ class RateLimit {
   hal::Clock::duration period_;
   int used_ = 0;
   std::uint64_t withheld_ = 0;
-  std::optional<hal::TimePoint> start_;  ///< of the current period
+  std::optional<hal::TimePoint> start_;  ///< start of the current period
 };
 
 }  // namespace orbwatch::app

@@ -8,7 +8,7 @@
 namespace orbwatch::app {
 namespace {
 
-// The C API takes no const pointers, but a write changes nothing.
+// The C API takes non-const pointers, but a write changes nothing.
 template <class T>
 T* unchanged(const T* data) {
   return const_cast<T*>(data);

@@ -14,13 +14,12 @@ using CameraInfoMessage = sensor_msgs_msg_dds__CameraInfo_;
 
 /// The calibration of a picture of this lens, in the optical frame of ROS (REP 103: x right, y
 /// down, z into the picture; pixel centres at integers). Its rectified picture keeps the camera
-/// matrix. The message leads to `lens` and `frame_id`, which have to outlive it. Reentrant.
+/// matrix. The message points to `lens` and `frame_id`, which must outlive it. Reentrant.
 CameraInfoMessage camera_info(const optics::Intrinsics& lens, const std::string& frame_id,
                               const TimeMessage& stamp);
 
-/// The pinhole without distortion that takes the picture of a perspective view. Errors: as
-/// ViewProjection::make; views of other kinds, which no pinhole describes. Reentrant; allocates
-/// nothing but errors.
+/// The pinhole camera without distortion that is equivalent to a perspective view. Errors: those of
+/// ViewProjection::make; views of other kinds. Reentrant; allocates nothing but errors.
 Result<optics::Intrinsics> lens_of(const optics::ViewSpec& view);
 
 }  // namespace orbwatch::app

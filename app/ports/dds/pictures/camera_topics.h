@@ -15,7 +15,7 @@
 
 namespace orbwatch::app {
 
-/// The topics of a camera's own picture of the ball, and its calibration where the lens is known.
+/// Topics of a camera's own picture of the ball, and of its calibration if the lens is known.
 /// Thread rule: as ViewTopics.
 class CameraTopics {
  public:
@@ -25,7 +25,8 @@ class CameraTopics {
   Result<> open(const Entity& participant);
   void close();
 
-  /// Queues what has readers; returns at once. `stamp` is that of the frame's own exposure.
+  /// Queues the picture for topics with readers; returns at once. `stamp` is that of the frame's
+  /// own exposure.
   void accept(const hal::Frame& frame, const TimeMessage& stamp);
   /// Writes the calibration of the newest picture, if it has a reader.
   void publish_info();

@@ -17,7 +17,7 @@ using CompressedImageMessage = sensor_msgs_msg_dds__CompressedImage_;
 
 /// Memory layout of the pixels of an image message (ROS 2, sensor_msgs/image_encodings.hpp).
 struct ImageEncoding {
-  std::string_view name;  ///< of a literal, so zero-terminated
+  std::string_view name;  ///< points to a literal, so zero-terminated
   PixelFormat format;
   std::uint32_t channels;
   std::uint32_t bytes_per_sample;
@@ -38,8 +38,8 @@ constexpr const ImageEncoding& encoding_of(PixelFormat format) {
 
 inline constexpr bool kBigEndianHost = std::endian::native == std::endian::big;
 
-/// `format` of a compressed image as ROS' image_transport defines it: the picture's encoding, then
-/// codec and encoding of the compressed data. Of literals, so zero-terminated.
+/// Values of `format` of a compressed image, defined by ROS' image_transport: the picture's
+/// encoding, then codec and encoding of the compressed data. They are literals, so zero-terminated.
 inline constexpr std::string_view kColourJpeg = "rgb8; jpeg compressed bgr8";
 inline constexpr std::string_view kGreyJpeg = "mono8; jpeg compressed mono8";
 

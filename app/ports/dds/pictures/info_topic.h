@@ -12,17 +12,16 @@
 
 namespace orbwatch::app {
 
-/// A picture's calibration on its way from the pipeline to a topic.
+/// Calibration of a picture, passed from the pipeline to a topic.
 struct StampedCalibration {
-  std::variant<optics::ViewSpec, optics::Intrinsics>
-      calibration;                        ///< of a perspective view, or lens
-  TimeMessage stamp{};                    ///< of the picture
-  const std::string* frame_id = nullptr;  ///< of the picture; outlives the topic
+  std::variant<optics::ViewSpec, optics::Intrinsics> calibration;  ///< perspective view, or lens
+  TimeMessage stamp{};                                             ///< of the picture
+  const std::string* frame_id = nullptr;  ///< the picture's frame_id; outlives the topic
 };
 
 /// The camera_info beside an image topic: the calibration of each picture, with its stamp and
-/// frame_id. The newest wins. Without a reader it costs nothing.
-/// Thread rule: accept by one thread; publish, open and close by one owner; the rest by any.
+/// frame_id. The newest wins. A topic without a reader has no cost. Thread rule: accept on one
+/// thread; publish, open and close by one owner; everything else on any thread.
 class InfoTopic {
  public:
   /// `raw` is the name of the image topic.
@@ -33,7 +32,7 @@ class InfoTopic {
 
   /// Queues the calibration of a picture if it has a reader; returns at once.
   void accept(const StampedCalibration& picture);
-  /// Writes the newest, if there is one.
+  /// Writes the newest calibration, if there is one.
   void publish();
 
   const TopicWriter& writer() const { return topic_; }

@@ -34,7 +34,7 @@ void PictureTopic::accept(const StampedPicture& picture, bool serves) {
   if (is_read && !is_due(now)) {
     ++limited_;
   } else if (!is_read || !serves) {
-    mailbox_.withdraw();  // only the rate makes a picture wait that is not the newest
+    mailbox_.withdraw();  // only the rate limit makes a picture wait that is not the newest
     topic_.count_unread();
   } else if (picture.is_scarce && busy_) {
     ++passed_over_;
@@ -71,7 +71,7 @@ bool PictureTopic::was_clock_set(std::chrono::nanoseconds now) const {
 
 void PictureTopic::write_newest() {
   auto picture = mailbox_.try_take();
-  // It may have been accepted while the topic was closed.
+  // The picture may have been accepted while the topic was closed.
   if (picture && open_) writer_->write(std::move(*picture), topic_);
   busy_ = false;
 }

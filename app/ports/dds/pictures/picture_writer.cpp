@@ -6,10 +6,10 @@
 namespace orbwatch::app {
 namespace {
 
-/// Beside the rest of an image message.
+/// Limit of the pixels, beside the rest of an image message.
 constexpr std::size_t kMaxPixelBytes = kMaxSampleBytes - 4096;
 
-// The C API takes no const pointers, but a write changes nothing.
+// The C API takes non-const pointers, but a write changes nothing.
 template <class To, class From>
 To* writable(const From* data) {
   return reinterpret_cast<To*>(const_cast<From*>(data));
@@ -31,7 +31,8 @@ void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   }
   const std::byte* pixels = picture.planes[0].data;
   const bool is_grey_plane = format == PixelFormat::Grey &&
-                             info(picture.format).plane_count() > 1;  // luminance comes first
+                             // the first plane is luminance
+                             info(picture.format).plane_count() > 1;
   const bool is_as_sent =
       (picture.format == format || counts || is_grey_plane) && picture.planes[0].stride == step;
   if (stamped.is_scarce || !is_as_sent) {

@@ -15,16 +15,18 @@
 
 namespace orbwatch::app {
 
-/// A picture on its way from the pipeline to topics.
+/// A picture passed from the pipeline to topics.
 struct StampedPicture {
-  std::shared_ptr<const void> owner;  ///< of the pixels: a view or a camera's frame
+  std::shared_ptr<const void> owner;  ///< owner of the pixels: a view or a camera's frame
   Picture picture;
-  TimeMessage stamp{};                    ///< UTC of the exposure's start
+  TimeMessage stamp{};                    ///< UTC of the exposure start
   const std::string* frame_id = nullptr;  ///< outlives the topics
-  /// Lies in one of a camera's few buffers: never waits for the topic's own write to end, nor lasts
-  /// through it. It may wait for that of another topic where all shared threads are busy.
+  /// The picture is in one of a camera's few buffers: it is neither held until a previous write of
+  /// the topic ends nor during its own write. It may wait for the write of another topic if all
+  /// shared threads are busy.
   bool is_scarce = false;
-  /// Gets the same sample after the topic itself, which is closed before it; null: none.
+  /// Second writer of the same sample, after the topic itself, which is closed before it; null:
+  /// none.
   TopicWriter* also = nullptr;
 };
 
@@ -38,9 +40,9 @@ class PictureWriter {
   virtual void write(StampedPicture picture, TopicWriter& topic) = 0;
 };
 
-/// sensor_msgs/Image in one encoding; luminance of more than 8 bit is sent as mono16 whatever the
-/// encoding. Pixels of that encoding without padding are passed to DDS in place, unless they are
-/// scarce.
+/// sensor_msgs/Image in one encoding; luminance of more than 8 bits is sent as mono16 regardless of
+/// the encoding. Pixels of that encoding without padding are passed to DDS in place, unless they
+/// are scarce.
 class RawPictureWriter final : public PictureWriter {
  public:
   /// `encoding` is Rgb, Bgr or Grey.

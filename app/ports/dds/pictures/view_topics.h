@@ -12,9 +12,9 @@
 
 namespace orbwatch::app {
 
-/// The topics of one view: its picture for people and its measured plane, of a perspective view
-/// each with its calibration. Thread rule: accept by one thread; publish_info, open and close by
-/// one owner; report by any.
+/// Topics of one view: its display picture and its measured plane, each with its calibration for a
+/// perspective view. Thread rule: accept on one thread; publish_info, open and close by one owner;
+/// report on any thread.
 class ViewTopics {
  public:
   ViewTopics(const DdsSettings& settings, const std::string& name, const PublishedView& view,
@@ -23,10 +23,10 @@ class ViewTopics {
   Result<> open(const Entity& participant);
   void close();
 
-  /// The forms in which readers need the next picture for people.
+  /// The forms in which readers need the next display picture.
   PictureNeeds ask(const TimeMessage& stamp) { return picture_.ask(stamp); }
-  /// Queues what has readers; returns at once. `picture` is the view's picture for people; `same`:
-  /// see PictureTopics.
+  /// Queues pictures for topics with readers; returns at once. `picture` is the view's display
+  /// picture; `same`: see PictureTopics.
   void accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same);
   /// Writes the calibrations of the newest pictures, if they have readers.
   void publish_info();

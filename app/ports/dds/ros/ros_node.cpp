@@ -14,7 +14,7 @@ using Humble = rmw_dds_common_msg_humble__ParticipantEntitiesInfo_;
 constexpr const dds_topic_descriptor_t& kIron =
     rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc;
 
-/// Two forms on the wire have one type name.
+/// Descriptor of a generation; the two wire formats have the same type name.
 const dds_topic_descriptor_t& descriptor(RosGeneration generation) {
   static const dds_topic_descriptor_t humble = [] {
     dds_topic_descriptor_t type = rmw_dds_common_msg_humble__ParticipantEntitiesInfo__desc;
@@ -56,7 +56,7 @@ void refer(Sequence& sequence, std::vector<Entry>& list) {
 
 template <std::size_t size>
 void copy(std::string_view text, char (&place)[size]) {
-  text.copy(place, size - 1);  // the rest is zero
+  text.copy(place, size - 1);  // the rest stays zero
 }
 
 template <class Info>
@@ -86,7 +86,7 @@ Result<> write(const Entity& writer, dds_entity_t participant,
 Result<> DiscoveryInfo::open(const Entity& participant, RosGeneration generation) {
   const dds_topic_descriptor_t& type = descriptor(generation);
   const Qos qos = state_qos();
-  if (generation == RosGeneration::Iron) {  // the hash of the other form was never published
+  if (generation == RosGeneration::Iron) {  // ROS 2 never published a hash of the other format
     if (const auto announced = announce_type_hash(qos, type); !announced) return announced;
   }
   auto topic = make_topic(participant, type, kTopic);

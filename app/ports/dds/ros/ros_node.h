@@ -11,18 +11,18 @@
 
 namespace orbwatch::app {
 
-/// The form of ros_discovery_info changed once, with rmw_dds_common 2.0.
+/// Format of ros_discovery_info, which changed with rmw_dds_common 2.0.
 enum class RosGeneration : std::uint8_t {
-  Humble,  ///< and before
-  Iron,    ///< and since
+  Humble,  ///< Humble and before
+  Iron,    ///< Iron and later
 };
 
-/// Our node in ROS 2's graph.
+/// Name of our node in the ROS 2 graph.
 inline constexpr std::string_view kNodeName = "orbwatch";
 inline constexpr std::string_view kNodeNamespace = "/";
 
-/// USER_DATA of a participant with nodes: without the security enclave ROS 2 keeps it out of its
-/// graph until its node is announced.
+/// USER_DATA of a participant with nodes: without the security enclave ROS 2 does not show it in
+/// its graph until its node is announced.
 inline constexpr std::string_view kParticipantUserData = "enclave=/;";
 
 /// Announces writers and readers of a participant as those of the node kNodeName, so that
@@ -30,16 +30,16 @@ inline constexpr std::string_view kParticipantUserData = "enclave=/;";
 /// Thread-bound.
 class DiscoveryInfo {
  public:
-  /// Not a ROS topic: without "rt/".
+  /// Topic name; not a ROS topic, so without "rt/".
   static constexpr const char* kTopic = "ros_discovery_info";
 
-  /// Creates topic and writer; nothing is announced yet. Error: DDS refuses.
+  /// Creates topic and writer; announces nothing yet. Error: a failure of DDS.
   Result<> open(const Entity& participant, RosGeneration generation);
   void close();
 
-  /// Announces all endpoints of the node in place of those announced before, also to late joiners;
-  /// without any the node still exists. To be called whenever one is created or deleted. Errors:
-  /// not open, an invalid handle, DDS refuses.
+  /// Announces all endpoints of the node, replacing those announced before, also to late joiners; a
+  /// node without endpoints is valid. To be called whenever an endpoint is created or deleted.
+  /// Errors: not open, an invalid handle, a failure of DDS.
   Result<> announce(std::span<const dds_entity_t> writers, std::span<const dds_entity_t> readers);
 
  private:

@@ -19,12 +19,12 @@ namespace {
 
 /// An element of an XML document and its own text.
 struct XmlElement {
-  std::string path;  ///< names from the root on, with '/' between: "dds/permissions/grant"
+  std::string path;  ///< names from the root, separated by '/': "dds/permissions/grant"
   std::string text;
 };
 
-/// What the parser's callbacks fill. They name an element by its place in `elements` plus one: 0 is
-/// what the root stands in.
+/// Result of the parser's callbacks. They refer to an element by its index in `elements` plus one;
+/// 0 is the parent of the root.
 struct Reading {
   std::vector<XmlElement> elements;
   std::string error;
@@ -52,8 +52,8 @@ void on_error(void* argument, const char* message, int line) {
   if (error.empty()) error = std::string(message) + " in line " + std::to_string(line);
 }
 
-/// The elements of a document in the order in which they open, without attributes, by the parser
-/// that Cyclone DDS uses for governance and permissions. Error: names reason and line.
+/// Reads the elements of a document in opening order, without attributes, by the parser that
+/// Cyclone DDS uses for governance and permissions. Error: names reason and line.
 Result<std::vector<XmlElement>> read_xml(const std::string& document) {
   constexpr ddsrt_xmlp_callbacks kCallbacks{on_open, on_attribute, on_text, on_close, on_error};
   Reading reading;
@@ -76,8 +76,8 @@ int number(const std::string& text) {
   return error == std::errc() && stop == end ? value : kNoDomain;
 }
 
-/// Adds the domains that `element` gives the rule at the path `rule`: <domains> with <id>, or
-/// <id_range> with <min> and <max>. An invalid number stands for no domain.
+/// Adds the domains that `element` assigns to the rule at the path `rule`: <domains> with <id>, or
+/// <id_range> with <min> and <max>. An invalid number matches no domain.
 void read_domain(const XmlElement& element, const std::string& rule,
                  std::vector<DomainRange>& domains) {
   const std::string place = rule + "/domains/";
@@ -106,7 +106,7 @@ std::string topic_rule(const std::string& topics, const char* metadata_protectio
 )";
 }
 
-/// The first rule that matches a topic applies.
+/// Rules of topics; the first one that matches a topic applies.
 std::string topic_rules(const std::vector<std::string>& bulk_topics) {
   std::string rules;
   for (const std::string& topics : bulk_topics) rules += topic_rule(topics, "NONE");
@@ -117,15 +117,15 @@ const std::string kGrant = "dds/permissions/grant";
 const std::string kValidity = kGrant + "/validity/";
 const std::string kAllow = kGrant + "/allow_rule";
 
-/// XML Schema's dateTime.
+/// Format of XML Schema's dateTime.
 constexpr const char* kDateFormat = "%Y-%m-%dT%H:%M:%S";
 
-/// XML Schema's dateTime to the second; without a zone it is UTC.
+/// Parses XML Schema's dateTime to the second; without a zone it is UTC.
 std::optional<std::chrono::sys_seconds> read_date(const std::string& text) {
   std::tm calendar{};
   const char* rest = ::strptime(text.c_str(), kDateFormat, &calendar);
   if (!rest) return std::nullopt;
-  // A fraction.
+  // Skips a fraction.
   if (*rest == '.') rest += 1 + std::strspn(rest + 1, "0123456789");
   if (*rest == 'Z') ++rest;
   std::chrono::minutes zone{0};
@@ -157,7 +157,8 @@ std::string domain_ids(const std::vector<DomainRange>& domains) {
   return text;
 }
 
-/// "CN=a,O=b" as its parts; RFC 2253 and OpenSSL's older form differ in order and separator.
+/// Splits "CN=a,O=b" into its parts; RFC 2253 and OpenSSL's older form differ in order and
+/// separator.
 std::set<std::string> parts_of(const std::string& subject) {
   std::set<std::string> parts;
   for (std::size_t from = 0; from < subject.size();) {
@@ -181,8 +182,8 @@ bool contains(const std::vector<DomainRange>& domains, int domain) {
 }
 
 // Content is encrypted once per sample, whatever the number of readers. Submessages are signed, so
-// that nobody can forge acknowledgements, gaps and time stamps. The message's signature uses a key
-// that all participants share, the submessage's one of the topic.
+// that acknowledgements, gaps and time stamps cannot be forged. The message's signature uses a key
+// that all participants share, the submessage's signature a key of the topic.
 std::string governance_document(const DomainRange& domains,
                                 const std::vector<std::string>& bulk_topics) {
   return R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -222,7 +223,7 @@ Result<std::vector<DomainRange>> governed_domains(const std::string& document) {
   });
 }
 
-// Dates without a zone, which is UTC: that is what all vendors read.
+// Dates are written without a zone, that is in UTC, which all vendors can read.
 std::string permissions_document(const Grant& grant) {
   return R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"

@@ -23,7 +23,7 @@ bool contains(const std::vector<DomainRange>& domains, int domain);
 std::string governance_document(const DomainRange& domains,
                                 const std::vector<std::string>& bulk_topics);
 
-/// The domains that a governance document has rules for. Error: no such XML.
+/// The domains for which a governance document has rules. Error: not such XML.
 Result<std::vector<DomainRange>> governed_domains(const std::string& document);
 
 /// DDS names of topics; '*' stands for any text, '/' included.
@@ -34,22 +34,22 @@ struct TopicAccess {
 
 /// The rights of one participant.
 struct Grant {
-  std::string subject;  ///< of its certificate
+  std::string subject;  ///< subject of its certificate
   ValidityPeriod validity;
   std::vector<DomainRange> domains;
   TopicAccess topics;
 };
 
-/// A grant as XML of DDS Security 1.1, 9.4.1.3; all else is denied. Subject and topics hold no
-/// special characters of XML.
+/// A grant as XML of DDS Security 1.1, 9.4.1.3; everything else is denied. Subject and topics must
+/// not contain special characters of XML.
 std::string permissions_document(const Grant& grant);
 
-/// The grants of a permissions document; of their rules those that allow something. Errors: no such
-/// XML, a date that is none.
+/// The grants of a permissions document, with their allow rules only. Errors: not such XML, an
+/// invalid date.
 Result<std::vector<Grant>> read_permissions(const std::string& document);
 
-/// The grant for the holder of a certificate with this subject, or nullptr. As in Cyclone DDS the
-/// order of a subject's parts is free.
+/// The grant for the holder of a certificate with this subject, or nullptr. The order of a
+/// subject's parts is irrelevant, as in Cyclone DDS.
 const Grant* find_grant(const std::vector<Grant>& grants, const std::string& subject);
 
 }  // namespace orbwatch::app

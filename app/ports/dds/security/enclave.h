@@ -9,8 +9,8 @@
 
 namespace orbwatch::app {
 
-/// The files of one participant, named as in an enclave of ROS 2, where the folder works, too. The
-/// XML beside the signed documents is for people only.
+/// Files of one participant, named as in an enclave of ROS 2, which can use the folder, too. The
+/// XML beside the signed documents is for reading by users only.
 struct EnclaveFiles {
   explicit EnclaveFiles(const std::filesystem::path& folder);
 
@@ -19,14 +19,14 @@ struct EnclaveFiles {
   std::filesystem::path certificate;
   std::filesystem::path key;
   std::filesystem::path governance;   ///< the same for all participants of a domain
-  std::filesystem::path permissions;  ///< what this participant may do
+  std::filesystem::path permissions;  ///< rights of this participant
 };
 
-/// The text of a signed document in a file. Errors name file and reason.
+/// Reads and verifies a signed document from a file; returns its text. Errors name file and reason.
 Result<std::string> read_document(const std::filesystem::path& file, const Certificate& signer);
 
-/// Checks whether a participant with these files can join the domain and be authenticated. Cyclone
-/// DDS checks less and does not name the file. Errors: a file that is missing, damaged, expired at
+/// Checks that a participant with these files can join the domain and be authenticated. Cyclone DDS
+/// checks less and does not name the file. Errors: a file that is missing, damaged, expired at
 /// `now`, not valid yet, or inconsistent with the others or the domain. Without `now` dates are not
 /// checked. Reentrant.
 Result<> check_enclave(const EnclaveFiles& files, int domain, const Now& now);

@@ -8,10 +8,10 @@
 
 namespace orbwatch::app {
 
-/// Who may read a file besides its owner.
+/// Read access to a file.
 enum class Readable { Owner, Everybody };
 
-/// Creates a file that does not exist yet and flushes it to the disk. One for its owner only is
+/// Creates a file that does not exist yet and flushes it to the disk. A file for its owner only is
 /// never readable by others, not even while it is written. Error: names file and reason.
 Result<> write_key_file(const std::filesystem::path& file, std::string_view text,
                         Readable readable);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One of the plugins, named as by Cyclone DDS (docs/manual/security).
+/// A plugin, with the names that Cyclone DDS uses (docs/manual/security).
 struct Plugin {
   const char* property;  ///< prefix of its properties
   const char* file;
@@ -28,10 +28,10 @@ constexpr std::array kPlugins{
            "finalize_access_control"},
     Plugin{"dds.sec.crypto.", "libdds_security_crypto.so", "init_crypto", "finalize_crypto"}};
 
-/// The folder that Cyclone DDS itself was loaded from.
+/// Folder from which Cyclone DDS itself was loaded.
 fs::path library_folder() {
   Dl_info info{};
-  // The address of the library's own symbol: in the program it may be another.
+  // Looks up the library's own symbol, because its address in the program may differ.
   const void* const known = ::dlsym(RTLD_DEFAULT, "dds_create_participant");
   if (!known || ::dladdr(known, &info) == 0) return {};
   std::error_code error;
@@ -43,7 +43,7 @@ bool has_plugins(const fs::path& folder) {
   return fs::exists(folder / kPlugins[0].file, error);
 }
 
-/// Debian installs them in a folder named like libddsc's package, others beside libddsc.
+/// Folder of the plugins: named like libddsc's package on Debian, beside libddsc elsewhere.
 Result<fs::path> plugin_folder() {
   const fs::path libraries = library_folder();
   if (has_plugins(libraries)) return libraries;

@@ -13,12 +13,12 @@ struct SecuritySettings {
   std::filesystem::path folder;  ///< holds the files of EnclaveFiles
 };
 
-/// Checks the files, as check_enclave().
+/// Checks the files like check_enclave().
 Result<> check_security(const SecuritySettings& settings, int domain, Dates dates);
 
 /// QoS that makes a participant of the domain a secure one, by Cyclone DDS' own plugins. Reads the
-/// files once to check them; the plugins read them again. Errors: as check_security; the plugins
-/// are not installed. Reentrant.
+/// files once to check them; the plugins read them again. Errors: those of check_security(); the
+/// plugins are not installed. Reentrant.
 Result<Qos> security_qos(const SecuritySettings& settings, int domain);
 
 }  // namespace orbwatch::app

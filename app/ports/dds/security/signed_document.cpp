@@ -11,7 +11,7 @@ namespace {
 
 using Pkcs7 = std::unique_ptr<PKCS7, OpensslDeleter<PKCS7_free>>;
 
-/// Does not own the certificates in it.
+/// Stack that does not own its certificates.
 using Certificates =
     std::unique_ptr<STACK_OF(X509),
                     OpensslDeleter<[](STACK_OF(X509) * stack) { sk_X509_free(stack); }>>;
@@ -43,7 +43,7 @@ Result<std::string> verified_document(std::string_view document, const Certifica
   if (!out || !signers || sk_X509_push(signers.get(), signer.get()) < 1) {
     return tl::unexpected(openssl_error("cannot be verified"));
   }
-  // The signer is known beforehand: no certificate is looked for in the document, and no chain.
+  // The signer is known in advance: neither certificates in the document nor a chain are used.
   constexpr int kFlags = PKCS7_TEXT | PKCS7_NOVERIFY | PKCS7_NOINTERN;
   if (PKCS7_verify(signature.get(), signers.get(), nullptr, content.get(), out.get(), kFlags) !=
       1) {

@@ -38,7 +38,7 @@ constexpr void for_each_field(std::type_identity<CommandCounts>, Visit&& visit) 
         "Foreign writers and readers of our topics with other types")                       \
   FIELD(std::uint64_t, malformed, kCount, "Received samples that are not valid CDR of their type")
 
-/// Of all topics together, since construction.
+/// Counts over all topics together, since construction.
 struct DdsCounts {
   ORBWATCH_DDS_COUNTS(ORBWATCH_FIELD_MEMBER)
 };

@@ -19,7 +19,7 @@ std::string value_text(const Reading& reading) {
   if (!reading.text.empty()) return std::string(reading.text);
   if (!signals::is_valid(reading.value)) return "not valid";
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.15g", reading.value);  // counts in full
+  std::snprintf(text.data(), text.size(), "%.15g", reading.value);  // 15 digits keep counts exact
   return text.data();
 }
 
@@ -40,7 +40,7 @@ std::string line_name(std::string_view kind, std::string_view name) {
   return name.empty() ? text : text + " " + std::string(name);
 }
 
-/// Counts of one line; those that are 0 are left out.
+/// Counts of one line; counts of 0 are omitted.
 class Counters {
  public:
   explicit Counters(Diagnostic& diagnostic) : diagnostic_(diagnostic) {}
@@ -48,7 +48,7 @@ class Counters {
   void normal(const std::string& name, std::uint64_t count) {
     if (count > 0) diagnostic_.values.emplace_back(name, std::to_string(count));
   }
-  /// One that is a warning.
+  /// Adds a count that is a warning.
   void bad(const std::string& name, std::uint64_t count, std::string_view message) {
     normal(name, count);
     if (count == 0 || diagnostic_.level == DiagnosticLevel::Warn) return;

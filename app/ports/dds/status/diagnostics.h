@@ -13,10 +13,11 @@ namespace orbwatch::app {
 
 using DiagnosticsMessage = diagnostic_msgs_msg_dds__DiagnosticArray_;
 
-/// The topic of all diagnostics in ROS 2; a message a second is usual.
+/// Topic of all diagnostics in ROS 2; one message per second is usual.
 inline constexpr const char* kDiagnosticsTopic = "rt/diagnostics";
 
-/// The numbers are those of diagnostic_msgs/msg/DiagnosticStatus, and of Severity.
+/// Level of a diagnostic; the numbers are those of diagnostic_msgs/msg/DiagnosticStatus and of
+/// Severity.
 enum class DiagnosticLevel : std::uint8_t { Ok = 0, Warn = 1, Error = 2, Stale = 3 };
 
 /// One line of diagnostics.
@@ -28,21 +29,21 @@ struct Diagnostic {
 };
 
 /// The condition of each component of a status, of the commands and of the network. Keys are the
-/// names of the figures with the unit in parentheses. Signals are left to the process state: the
-/// process is not what is diagnosed. Stale: nothing is known yet. Reentrant.
+/// names of the figures with the unit in parentheses. Signals are in the process state only:
+/// diagnostics concern the appliance, not the process. Stale: nothing is known yet. Reentrant.
 std::vector<Diagnostic> diagnose(const StatusReport& report, const DdsStatistics& network);
 
-/// The line "orbwatch: network": each count of samples by its reason, without those that are 0.
-/// Warn when samples were lost or refused. Reentrant.
+/// The line "orbwatch: network": each count of samples by its reason, without counts of 0. Warn if
+/// samples were lost or refused. Reentrant.
 Diagnostic diagnose_network(const DdsStatistics& network);
 
 /// Turns diagnostics into a message. Thread-bound; reuses its memory.
 class DiagnosticsComposer {
  public:
-  /// `hardware_id` tells appliances apart.
+  /// `hardware_id` distinguishes appliances.
   explicit DiagnosticsComposer(std::string hardware_id) : hardware_id_(std::move(hardware_id)) {}
 
-  /// The message; valid until the next call. `stamp` is now.
+  /// The message; valid until the next call. `stamp` is the present time.
   const DiagnosticsMessage& compose(std::vector<Diagnostic> diagnostics, const TimeMessage& stamp);
 
  private:

@@ -17,7 +17,7 @@ const EventMessage& EventComposer::compose(const AlarmNotice& notice, const Stat
   for (const Reading& reading : notice_readings(notice, names)) {
     figures_.push_back(figure_message(reading));
   }
-  // The C API takes no const pointers, but a write changes nothing.
+  // The C API takes non-const pointers, but a write changes nothing.
   message_.header = {stamp, const_cast<char*>("")};
   message_.number = notice.number;
   message_.kind = const_cast<char*>(kAlarmKind);

@@ -12,7 +12,7 @@ namespace orbwatch::app {
 
 using EventMessage = orbwatch_msgs_msg_dds__Event_;
 
-/// Turns what happened into the message of the event topic. Thread-bound; reuses its memory.
+/// Converts a notice to the message of the event topic. Thread-bound; reuses its memory.
 class EventComposer {
  public:
   /// The message; valid until the next call, and as long as the names. `stamp` is that of the

@@ -7,7 +7,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// The C API takes no const pointers, but a write changes nothing.
+/// Casts const away: the C API takes non-const pointers, but a write changes nothing.
 char* text(std::string_view zero_terminated) {
   return const_cast<char*>(zero_terminated.empty() ? "" : zero_terminated.data());
 }

@@ -14,14 +14,14 @@ using FigureSequence = dds_sequence_orbwatch_msgs_msg_dds__Figure_;
 using ComponentMessage = orbwatch_msgs_msg_dds__Component_;
 using ProcessStateMessage = orbwatch_msgs_msg_dds__ProcessState_;
 
-/// The kind of component that this port adds to those of a status.
+/// Kind of the component that this port adds to those of a status.
 inline constexpr std::string_view kCommandsKind = "commands";
 
 /// A reading as a message. It refers to the reading's texts, which are zero-terminated or empty and
 /// outlive it.
 FigureMessage figure_message(const Reading& reading);
 
-/// Turns a status into the message of the process-state topic. Thread-bound; reuses its memory.
+/// Converts a status to the message of the process-state topic. Thread-bound; reuses its memory.
 class ProcessStateComposer {
  public:
   /// The message; valid until the next call, and as long as the names of the report.

@@ -24,8 +24,7 @@ struct StampedNotice {
   TimeMessage stamp;
 };
 
-/// The topics of everything but pictures: the process state, events, and ROS' diagnostics once a
-/// second.
+/// All topics except pictures: the process state, events, and ROS' diagnostics once a second.
 /// Thread rule: one owner; writers()' statistics by any thread.
 class StatusTopics {
  public:

@@ -12,20 +12,17 @@ inline std::string ros_topic(std::string_view prefix, std::string_view name) {
   return std::string("rt/").append(prefix).append("/").append(name);
 }
 
-/// DDS topic names as ROS 2 derives them from its own: "rt/" before the ROS name. The topics:
-///   rt/<prefix>/<view>/image_raw              the picture for people
-///   rt/<prefix>/<view>/radiometric/image_raw  the measured plane, mono16 counts or mono8
-///   rt/<prefix>/selected/image_raw            the view that Status::selected_view names
-///   rt/<prefix>/<camera>/ball/image_raw       a camera's own picture
-///   .../image_raw/compressed                  each but the measured ones as JPEG
-///   .../camera_info                           beside image_raw: the calibration of its picture, of
-///                                             a perspective view or a camera with a known lens
-///   rt/<prefix>/process_state                 the process state
-///   rt/<prefix>/event                         events
-///   rt/<prefix>/command                       requests to orbwatch
-///   rt/<prefix>/command_result                answers to them
-///   rt/orbwatch_appliance                     the appliances of the domain, whatever their prefix
-///   rt/orbwatch_thumbnail                     what they see
+/// DDS topic names, derived by the rule of ROS 2: "rt/" before the ROS name. The topics:
+/// rt/<prefix>/<view>/image_raw              the picture for people
+/// rt/<prefix>/<view>/radiometric/image_raw  the measured plane, mono16 counts or mono8
+/// rt/<prefix>/selected/image_raw            the view that Status::selected_view names
+/// rt/<prefix>/<camera>/ball/image_raw       a camera's own picture .../image_raw/compressed
+/// each but the measured ones as JPEG .../camera_info                           beside image_raw:
+/// the calibration of its picture, of a perspective view or a camera with a known lens
+/// rt/<prefix>/process_state                 the process state rt/<prefix>/event
+/// events rt/<prefix>/command                       requests to orbwatch rt/<prefix>/command_result
+/// answers to them rt/orbwatch_appliance                     the appliances of the domain, whatever
+/// their prefix rt/orbwatch_thumbnail                     what they see
 inline std::string image_topic(std::string_view prefix, std::string_view view) {
   return ros_topic(prefix, view) + "/image_raw";
 }
@@ -35,7 +32,7 @@ inline std::string radiometric_topic(std::string_view prefix, std::string_view v
 inline std::string ball_topic(std::string_view prefix, std::string_view camera) {
   return ros_topic(prefix, camera) + "/ball/image_raw";
 }
-/// The topic of the calibration beside an image topic, where ROS 2 looks for it.
+/// Topic of the calibration beside an image topic, at the place that ROS 2 expects.
 inline std::string camera_info_topic(std::string_view raw) {
   return std::string(raw.substr(0, raw.rfind('/'))) + "/camera_info";
 }
@@ -55,13 +52,13 @@ inline std::string command_result_topic(std::string_view prefix) {
 inline constexpr std::string_view kApplianceTopic = "rt/orbwatch_appliance";
 inline constexpr std::string_view kThumbnailTopic = "rt/orbwatch_thumbnail";
 
-/// Stands for a view's name in the topics of the selected view.
+/// Replaces a view's name in the topics of the selected view.
 inline constexpr std::string_view kSelectedView = "selected";
 
 /// Checks one part of a topic against the rules of ROS 2: letters, digits and underscores, no digit
 /// first. `what` names it in the error.
 Result<> check_topic_part(std::string_view part, std::string_view what);
-/// The same for parts with '/' between them.
+/// Checks a path of parts separated by '/'.
 Result<> check_topic_path(std::string_view path, std::string_view what);
 
 }  // namespace orbwatch::app

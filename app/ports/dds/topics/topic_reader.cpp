@@ -26,7 +26,7 @@ void TopicReader::close() {
 }
 
 Result<std::size_t> take_samples(dds_entity_t reader, const AcceptSample& accept) {
-  std::array<void*, kMaxTaken> samples{};  // empty: DDS lends its own
+  std::array<void*, kMaxTaken> samples{};  // null: DDS loans samples
   std::array<dds_sample_info_t, kMaxTaken> infos{};
   const dds_return_t count =
       dds_take(reader, samples.data(), infos.data(), samples.size(), kMaxTaken);

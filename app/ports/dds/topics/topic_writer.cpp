@@ -24,7 +24,7 @@ Result<> TopicWriter::open(const Entity& participant, const Qos& qos) {
 }
 
 void TopicWriter::close() {
-  writer_.reset();  // waits for count_readers
+  writer_.reset();  // waits for calls of count_readers()
   show_order_of_calls();
   topic_.reset();
   readers_ = 0;

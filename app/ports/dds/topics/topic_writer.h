@@ -25,8 +25,8 @@ namespace orbwatch::app {
 /// The samples of one topic since the program started, each counted once.
 struct TopicStatistics {
   std::string topic;
-  ORBWATCH_DDS_TOPIC_FIGURES(ORBWATCH_FIELD_MEMBER)
-  std::string last_error{};  ///< of the newest failure; empty when there was none
+  /// Text of the newest failure; empty: none yet.
+  ORBWATCH_DDS_TOPIC_FIGURES(ORBWATCH_FIELD_MEMBER) std::string last_error{};
 };
 
 template <class Visit>
@@ -35,8 +35,8 @@ constexpr void for_each_field(std::type_identity<TopicStatistics>, Visit&& visit
   ORBWATCH_DDS_TOPIC_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
-/// One topic and its writer, with statistics.
-/// Thread rule: one owner opens and closes; between, all else is thread-safe.
+/// One topic and its writer, with statistics. Thread rule: one owner opens and closes; in between,
+/// everything else is thread-safe.
 class TopicWriter {
  public:
   TopicWriter(const dds_topic_descriptor_t& type, std::string name)
@@ -45,12 +45,12 @@ class TopicWriter {
   TopicWriter(const TopicWriter&) = delete;  // Cyclone DDS keeps its address
   TopicWriter& operator=(const TopicWriter&) = delete;
 
-  /// Creates topic and writer, which announces its type's hash; does nothing when they exist. An
+  /// Creates topic and writer, which announces its type's hash; does nothing if they exist. An
   /// error counts as a failed sample.
   Result<> open(const Entity& participant, const Qos& qos);
   void close();
 
-  /// Whether the topic has a reader now. Thread-safe, never waits.
+  /// Returns whether the topic has a reader at present. Thread-safe, never waits.
   bool has_reader() const { return readers_ > 0; }
   void count_unread() { ++unread_; }
 
@@ -66,7 +66,7 @@ class TopicWriter {
   const char* type_name() const { return type_.m_typename; }
 
  private:
-  /// On a thread of Cyclone DDS.
+  /// Called on a thread of Cyclone DDS.
   static void count_readers(dds_entity_t writer, dds_publication_matched_status_t status,
                             void* topic);
 

@@ -37,12 +37,12 @@ void TypeWatch::update(const Entity& reader, const char* kind) {
     if (ours == types_.end() || ours->second == endpoint.type_name) return;
     ++count_;
     if (found_[ours->first]++ > 0) return;
-    // Does not quote the foreign type name, which may hold control characters.
+    // The message does not quote the foreign type name, which may contain control characters.
     log_line(LogLevel::Warning, "DDS: discovered a foreign " + std::string(kind) + " of " +
                                     ours->first + " with another type than " + ours->second +
                                     "; it will not be matched");
   };
-  // Fails only when the participant is gone.
+  // The call fails only if the participant has been deleted.
   for (auto taken = take_samples(reader.get(), judge); taken && *taken > 0;) {
     taken = take_samples(reader.get(), judge);
   }

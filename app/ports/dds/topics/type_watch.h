@@ -12,19 +12,19 @@ namespace orbwatch::app {
 /// matches them, without an error. Thread-bound.
 class TypeWatch {
  public:
-  /// `types` by topic. Error: DDS refuses.
+  /// Starts watching `types`, by topic. Error: a failure of DDS.
   Result<> open(const Entity& participant, std::map<std::string, std::string> types);
   void close();
 
-  /// Logs the first of each topic; returns how many were detected since construction. After open()
-  /// all that are there are detected again.
+  /// Logs the first one of each topic; returns the number detected since construction. After open()
+  /// all present ones are detected again.
   std::uint64_t update();
 
  private:
   void update(const Entity& reader, const char* kind);
 
   std::map<std::string, std::string> types_;
-  std::map<std::string, std::uint64_t> found_;  ///< by topic
+  std::map<std::string, std::uint64_t> found_;  ///< counts by topic
   std::uint64_t count_ = 0;
   Entity writers_;
   Entity readers_;
