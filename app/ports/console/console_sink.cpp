@@ -12,7 +12,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// "frames_per_second 15.2 1/s"; without the unit where the name ends with it.
+/// Text such as "frames_per_second 15.2 1/s", without the unit if the name ends with it.
 std::string named_value(const Reading& reading) {
   char text[32];
   const bool whole = reading.value == std::floor(reading.value);
@@ -24,7 +24,7 @@ std::string named_value(const Reading& reading) {
   return value;
 }
 
-/// Of a region's many signals the main ones.
+/// Selects the main ones of a region's many signals.
 bool is_shown(const Component& component, const Reading& reading) {
   if (!signals::is_valid(reading.value)) return false;
   if (component.kind != "region" || reading.name == "quality") return true;
@@ -34,7 +34,8 @@ bool is_shown(const Component& component, const Reading& reading) {
   });
 }
 
-/// "camera front: camera delivers, frames_per_second 15.2 1/s, frames 300"; without what is 0.
+/// "camera front: camera delivers, frames_per_second 15.2 1/s, frames 300"; values of 0 are
+/// omitted.
 std::string line_of(const ComponentReadings& entry) {
   const auto& [component, readings] = entry;
   std::string values;

@@ -46,10 +46,11 @@ constexpr void for_each_field(std::type_identity<ConsoleCounts>, Visit&& visit) 
 }
 
 /// Prints every component of the status with its values, once a period and when it stops. A print
-/// that its reader does not take is dropped: nothing waits for the reader, the end neither.
+/// is dropped if the reader of standard output does not keep up: neither the sink nor stop() waits
+/// for it.
 class ConsoleSink final : public Sink {
  public:
-  /// `file` is open for writing and outlives it.
+  /// `file` is open for writing and outlives the sink.
   ConsoleSink(ConsoleSettings settings, StatusNames names, int file);
   ~ConsoleSink() override;
 
@@ -65,7 +66,7 @@ class ConsoleSink final : public Sink {
 
   ConsoleSettings settings_;
   StatusNames names_;
-  WaitlessOutput out_;  ///< the thread's while it runs, else the owner's
+  WaitlessOutput out_;  ///< used by the thread while it runs, else by the owner
   std::atomic<std::uint64_t> dropped_{0};
   hal::TimePoint started_;
   std::mutex mutex_;

@@ -29,7 +29,7 @@ bool WaitlessOutput::write(std::string_view text) {
   return true;
 }
 
-/// Writes as much as is taken at once. Text that can never be written is dropped.
+/// Writes as much as is accepted at once. Text that can never be written is dropped.
 void WaitlessOutput::send() {
   while (!rest_.empty()) {
     ssize_t sent = -1;
@@ -38,7 +38,7 @@ void WaitlessOutput::send() {
     } else if (own_.is_open()) {
       sent = ::write(own_.get(), rest_.data(), rest_.size());
     } else {
-      // A regular file, or a pipe of another user: one that is writable takes this much.
+      // A regular file, or a pipe of another user, accepts this much if it is writable.
       pollfd ready{file_, POLLOUT, 0};
       if (::poll(&ready, 1, 0) <= 0) return;
       sent = ::write(file_, rest_.data(), std::min<std::size_t>(rest_.size(), PIPE_BUF));

@@ -8,24 +8,24 @@
 
 namespace orbwatch::app {
 
-/// Writes texts to an open file without waiting for whoever reads it: a pipe, a terminal or a
-/// socket that takes no more keeps the rest of the text under way, and while it does, further texts
-/// are dropped whole. Thread-bound.
+/// Writes texts to an open file without waiting for its reader: when a pipe, a terminal or a socket
+/// is full, the rest of the present text is kept, and until it is written further texts are dropped
+/// entirely. Thread-bound.
 class WaitlessOutput {
  public:
-  /// `file` stays the caller's, with its flags: others may share it.
+  /// `file` remains owned by the caller, with its flags unchanged, because others may share it.
   explicit WaitlessOutput(int file);
 
-  /// False: the text was dropped.
+  /// Writes or keeps a text. False: it was dropped.
   bool write(std::string_view text);
 
  private:
   void send();
 
   const int file_;
-  hal::FileDescriptor own_;  ///< the same pipe or terminal, opened anew without waiting; or closed
+  hal::FileDescriptor own_;  ///< the same pipe or terminal, opened again as non-blocking; or closed
   bool is_socket_ = false;
-  std::string rest_;  ///< of the text under way
+  std::string rest_;  ///< unwritten rest of the present text
 };
 
 }  // namespace orbwatch::app

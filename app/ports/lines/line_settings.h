@@ -24,7 +24,7 @@ constexpr bool is_watchdog(LineUse use) {
 
 enum class LineKind { Gpio, Simulated };
 
-/// The trigger_source of a camera that only commands trigger; no line has this name.
+/// The trigger_source of a camera that is triggered by commands only; no line may have this name.
 inline constexpr const char* kSoftwareSource = "software";
 
 /// A digital input or output and its use.
@@ -32,12 +32,12 @@ struct LineSettings {
   std::string name;
   LineUse use = LineUse::TriggerIn;
   LineKind back_end = LineKind::Gpio;
-  hal::InputSettings wire;         ///< of outputs, too, but for the debounce time
-  std::string source;              ///< of pulses: a trigger_in line; empty: none
-  double rate = 0;                 ///< of pulses, per second; 0: by source or command
-  hal::PulseSettings pulse;        ///< its period follows from the rate
-  double toggle_rate = 0;          ///< per second; 0: held
-  hal::WatchdogSettings watchdog;  ///< its half-period follows from the toggle rate
+  hal::InputSettings wire;         ///< also used for outputs, except the debounce time
+  std::string source;              ///< trigger_in line that starts pulses; empty: none
+  double rate = 0;                 ///< pulses per second; 0: by source or command
+  hal::PulseSettings pulse;        ///< its period is derived from the rate
+  double toggle_rate = 0;          ///< toggles per second; 0: held
+  hal::WatchdogSettings watchdog;  ///< its half-period is derived from the toggle rate
 };
 
 inline constexpr std::array kLineUses{
@@ -50,7 +50,7 @@ inline constexpr std::array kLineBiases{
     Word{"as_is", hal::LineBias::AsIs}, Word{"disabled", hal::LineBias::Disabled},
     Word{"pull_up", hal::LineBias::PullUp}, Word{"pull_down", hal::LineBias::PullDown}};
 
-/// The keys of trigger_out and strobe.
+/// Keys of trigger_out and strobe.
 template <class Visitor>
 void visit_pulses(Visitor& v, LineSettings& line) {
   const bool pulsed = is_pulsed(line.use);

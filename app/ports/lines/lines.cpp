@@ -26,7 +26,7 @@ std::unique_ptr<hal::LineBackEnd> make_simulated(
                                                nullptr, is_connected);
 }
 
-/// On the line thread. `before`: the fault until now.
+/// Logs a change of a line's fault, on the line thread. `before`: the previous fault.
 void log_fault(const std::string& name, hal::LineFault before, const hal::LineFaultReport& report) {
   const bool is_cleared = report.fault == hal::LineFault::None;
   const bool has_detail = !report.detail.empty();
@@ -42,7 +42,7 @@ Lines::Lines(const std::vector<LineSettings>& settings,
              const hal::SimulatedLines::IsConnected& is_connected)
     : gpio_(std::make_unique<hal::GpioLines>()),
       simulated_(make_simulated(settings, is_connected)) {
-  // Inputs first: outputs may have one as their source.
+  // Inputs are opened first, because outputs may refer to them as source.
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (is_input(settings[i].use)) open_input(i, settings[i]);
   }
@@ -69,11 +69,11 @@ void Lines::stop() {
 void Lines::make_safe() {
   const std::lock_guard lock(running_);
   stop_threads();
-  // One that is refused has a fault already.
+  // An output that refuses already has a fault.
   for (hal::DigitalOutput* const output : outputs_) static_cast<void>(output->set(false));
 }
 
-/// Stops them with running_ held.
+/// Stops the threads; the caller holds running_.
 void Lines::stop_threads() {
   thread_.stop();
   for (const auto& asking : asking_) asking->stop();
@@ -88,7 +88,7 @@ hal::WatchedInput& Lines::input(const std::string& name) {
   return *std::ranges::find(inputs_, name, &Input::name)->line;
 }
 
-/// On the line thread, once it runs.
+/// Returns the fault handler of a line; called on the line thread once it runs.
 hal::LineRetry::OnFault Lines::on_fault(std::size_t index, const std::string& name) {
   return [this, bit = 1U << index, name,
           before = hal::LineFault::None](const hal::LineFaultReport& report) mutable {
@@ -169,7 +169,8 @@ std::shared_ptr<hal::FrameTrigger> Lines::trigger(const hal::TriggerSettings& se
 }
 
 void Lines::trigger() {
-  const auto now = hal::Clock::now();  // one for all: they may belong to one frame set
+  // the same for all, because the frames may belong to one frame set
+  const auto now = hal::Clock::now();
   for (const auto& trigger : triggers_) {
     if (trigger) trigger->fire(now);
   }

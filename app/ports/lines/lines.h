@@ -22,11 +22,11 @@ namespace orbwatch::app {
 
 /// The configured lines at run time. As a sink it reports the pipeline's state on the lines
 /// process_ok and alarm. Its threads run from start to stop; edges before that are lost. Thread
-/// rule: as Sink's; open and trigger before start; make_safe on any.
+/// rule: as Sink; open and trigger before start; make_safe on any thread.
 class Lines : public Sink {
  public:
-  /// Opens all lines. One that is not there, or fails later, is a fault and taken up when it comes.
-  /// `is_connected`: of the simulated lines; null: all.
+  /// Opens all lines. A line that is missing, or fails later, has a fault and is opened again when
+  /// it returns. `is_connected`: state of the simulated lines; null: all are connected.
   explicit Lines(const std::vector<LineSettings>& settings,
                  const hal::SimulatedLines::IsConnected& is_connected = nullptr);
   ~Lines() override;
@@ -34,30 +34,30 @@ class Lines : public Sink {
   /// Bit n: line n of the configuration has a fault. On any thread.
   std::uint32_t faults() const { return faults_; }
 
-  /// Joins the camera's trigger line with its frames; null when the camera runs freely. Called for
-  /// the cameras in the configuration's order. `source`: name of the trigger line, or
+  /// Assigns the camera's frames to edges of its trigger line; null: the camera runs freely. Called
+  /// for the cameras in the configuration's order. `source`: name of the trigger line, or
   /// kSoftwareSource. `camera` outlives the run.
   std::shared_ptr<hal::FrameTrigger> trigger(const hal::TriggerSettings& settings,
                                              const std::string& source, hal::Camera& camera);
 
-  /// Whether the camera is triggered.
+  /// Returns whether the camera is triggered.
   bool triggers(std::size_t camera) const { return camera < triggers_.size() && triggers_[camera]; }
 
-  /// An edge for every triggered camera. On any thread; does not wait.
+  /// Triggers every triggered camera once, like an edge. On any thread; does not wait.
   void trigger();
 
-  /// One pulse on a trigger_out line, by its index among them. ArgumentOutOfRange: no such line;
-  /// Busy: its last pulse is not over. On any thread; does not wait.
+  /// Emits one pulse on a trigger_out line, by its index among those. ArgumentOutOfRange: no such
+  /// line; Busy: its last pulse has not ended. On any thread; does not wait.
   CommandResult pulse(std::size_t output);
 
-  /// In the configuration's order.
+  /// Process inputs in the configuration's order.
   const std::vector<std::shared_ptr<const hal::ProcessInput>>& process_inputs() const {
     return process_inputs_;
   }
 
   Result<> start() override;
   void stop() override;
-  /// Stops, and sets every output inactive, while the owner waits for something else that hangs.
+  /// Stops, and sets every output inactive, for use while the owner is blocked by another part.
   /// Waits for devices.
   void make_safe();
   void accept(const ViewPtr&) override {}
@@ -83,16 +83,19 @@ class Lines : public Sink {
   std::atomic<std::uint32_t> faults_{0};
   std::vector<Input> inputs_;
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs_;
-  std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;  ///< by camera; null: runs freely
-  /// One for each camera that is asked for its frames: it may be slow, and lines wait for nobody.
+  /// Triggers by camera; null: runs freely.
+  std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;
+  /// One thread for each software-triggered camera, which may be slow, so that lines never wait for
+  /// it.
   std::vector<std::unique_ptr<hal::LineThread>> asking_;
   std::vector<std::unique_ptr<hal::PulseOutput>> pulses_;
-  std::vector<hal::PulseOutput*> trigger_outputs_;  ///< of pulses_, in the configuration's order
+  /// Elements of pulses_, in the configuration's order.
+  std::vector<hal::PulseOutput*> trigger_outputs_;
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;
   std::vector<std::unique_ptr<hal::WatchdogOutput>> alarms_;
-  std::vector<hal::DigitalOutput*> outputs_;  ///< all
+  std::vector<hal::DigitalOutput*> outputs_;  ///< all outputs
   std::mutex running_;                        ///< held while the threads start or stop
-  hal::LineThread thread_;                    ///< stops before the others' end
+  hal::LineThread thread_;                    ///< stops before the other members are destroyed
 };
 
 }  // namespace orbwatch::app

@@ -7,7 +7,7 @@ std::vector<SafeOutput> make_safe(const std::vector<LineSettings>& lines,
   std::vector<SafeOutput> outputs;
   for (const LineSettings& line : lines) {
     if (is_input(line.use) || line.back_end != LineKind::Gpio) continue;
-    // An output is inactive when it is opened.
+    // Opening sets an output inactive.
     const auto opened =
         back_end.open_output({line.wire.address, line.wire.active_low, line.wire.bias});
     outputs.push_back({line.name, opened ? std::string() : opened.error().message});

@@ -8,14 +8,14 @@
 
 namespace orbwatch::app {
 
-/// What became of one output.
+/// Outcome for one output.
 struct SafeOutput {
   std::string name;
-  std::string error;  ///< empty: it is inactive
+  std::string error;  ///< empty: the output is inactive
 };
 
-/// Sets every output of the kernel's lines inactive and releases it: for the moment after the
-/// process that had them was killed. Each is tried, whatever became of the others. Simulated lines
+/// Sets every output of the kernel's lines inactive and releases it, for use after the process that
+/// held them was killed. Each output is tried, regardless of failures of others. Simulated lines
 /// ended with their process. Waits for devices.
 std::vector<SafeOutput> make_safe(const std::vector<LineSettings>& lines,
                                   hal::LineBackEnd& back_end);

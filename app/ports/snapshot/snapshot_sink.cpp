@@ -22,14 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 20260131T235959.123Z
+/// Time stamp in the form 20260131T235959.123Z.
 std::string stamp_text(hal::TimePoint moment) {
   std::string text = utc_text(hal::to_utc(moment)).value_or("");
   std::erase_if(text, [](char c) { return c == '-' || c == ':'; });
   return text.substr(0, text.find('.') + 4) + "Z";
 }
 
-/// VIEW_TIME_FRAMESET
+/// Name of a snapshot: VIEW_TIME_FRAMESET.
 std::string name_of(const View& view) {
   return std::string(view.name) + "_" + stamp_text(view.stamp) + "_" +
          std::to_string(view.frame_set);
@@ -53,7 +53,7 @@ bool remove_end(std::string_view& text, std::string_view end) {
   return true;
 }
 
-/// The common part of the names of a snapshot's files, of one that is written here:
+/// The common part of the names of a snapshot's files that this sink writes:
 /// VIEW_STAMP_NUMBER[_measured].png; nullopt for other files.
 std::optional<std::string> snapshot_of(const fs::path& file) {
   constexpr std::size_t kStamp = 20;
@@ -74,7 +74,7 @@ std::optional<std::string> snapshot_of(const fs::path& file) {
 
 /// A snapshot in the folder.
 struct Snapshot {
-  fs::file_time_type written{};  ///< the newest of its files
+  fs::file_time_type written{};  ///< modification time of its newest file
   std::vector<fs::path> files{};
 };
 /// Snapshots by the common part of their files' names.
@@ -85,7 +85,7 @@ Snapshots snapshots_in(const fs::path& folder, std::error_code& error) {
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const auto name = snapshot_of(it->path());
     if (!name) continue;
-    std::error_code gone;  // removed meanwhile
+    std::error_code gone;  // set if the file was removed meanwhile
     const auto written = it->last_write_time(gone);
     if (gone) continue;
     Snapshot& snapshot = found[*name];
@@ -95,10 +95,10 @@ Snapshots snapshots_in(const fs::path& folder, std::error_code& error) {
   return found;
 }
 
-/// Makes `newest` the one that was written last, whatever the clock said when others were written:
-/// so the times of modification are an order that outlasts the process.
+/// Gives `newest` the latest modification time, regardless of the clock when others were written,
+/// so that the order by modification time survives the process.
 void order_last(Snapshot& newest, fs::file_time_type others, std::error_code& error) {
-  // FAT counts two seconds.
+  // FAT has a resolution of two seconds.
   for (const auto step : {std::chrono::milliseconds(1), std::chrono::milliseconds(2000)}) {
     if (error || newest.written > others || newest.files.empty()) return;
     fs::last_write_time(newest.files.front(), others + step, error);
@@ -163,7 +163,7 @@ void SnapshotSink::accept(const ViewPtr& view) {
 
 void SnapshotSink::run() {
   while (thread_.wait()) write_all();
-  write_all();  // accepted before the stop
+  write_all();  // views accepted before the stop
 }
 
 void SnapshotSink::log_dropped() {
@@ -193,7 +193,7 @@ void SnapshotSink::write_all() {
   }
 }
 
-/// The next view to write; null without one.
+/// The next view to write; null: none.
 ViewPtr SnapshotSink::next() {
   const std::lock_guard lock(mutex_);
   const auto view = std::ranges::find_if(accepted_, [](const ViewPtr& v) { return v != nullptr; });
@@ -215,7 +215,7 @@ Result<> SnapshotSink::write(const View& view, const std::string& name) {
   return {};
 }
 
-/// `newest` counts as the one that was written last, also when the clock was set back.
+/// Removes the oldest snapshots; `newest` counts as written last, even if the clock was set back.
 Result<> SnapshotSink::remove_oldest(const std::string& newest) {
   std::error_code error;
   Snapshots snapshots = snapshots_in(settings_.folder, error);

@@ -33,32 +33,32 @@ void visit(Visitor& v, SnapshotSettings& snapshot) {
              "Number of snapshots kept; a further one deletes the oldest");
 }
 
-/// Writes a view's next picture as PNG on request, on a thread of its own:
+/// Writes a view's next picture as PNG on request, on a separate thread:
 /// VIEW_YYYYMMDDTHHMMSS.mmmZ_FRAMESET.png by the UTC of its exposure. A raw measured plane is
-/// written as VIEW_..._measured.png. Keeps the ones that were written last, by the files' times of
-/// modification: where the clock was set back, a new file is dated just behind the newest one.
-/// Other files in the folder are not touched. At most one picture of each view waits to be written.
-/// Thread rule: as Sink's; request on any thread.
+/// written as VIEW_..._measured.png. Keeps the snapshots written last, by the files' modification
+/// times: if the clock was set back, a new file is dated just after the newest one. Other files in
+/// the folder are not touched. At most one picture of each view waits to be written. Thread rule:
+/// as Sink; request on any thread.
 class SnapshotSink final : public Sink {
  public:
   explicit SnapshotSink(SnapshotSettings settings) : settings_(std::move(settings)) {}
   ~SnapshotSink() override;
 
-  /// Requests the next picture of a view. Busy while one of that view is requested or written;
-  /// NotPossible: the view is not live; ArgumentOutOfRange: no such view.
+  /// Requests the next picture of a view. Busy while a picture of that view is requested or
+  /// written; NotPossible: the view is not live; ArgumentOutOfRange: no such view.
   CommandResult request(std::size_t view);
 
-  /// Creates the folder, and removes what an earlier run left half written. Error: it cannot be
-  /// created or is not writable.
+  /// Creates the folder, and removes incomplete files of an earlier run. Error: the folder cannot
+  /// be created or is not writable.
   Result<> start() override;
-  /// Writes the accepted views first; a snapshot without one is never written.
+  /// Writes the accepted views first; requests without a view are dropped.
   void stop() override { thread_.stop(); }
   std::chrono::nanoseconds cpu_time() const override { return thread_.cpu_time(); }
   PictureNeeds needs(std::size_t view, hal::TimePoint stamp) override;
-  /// One is written or waits for it.
+  /// One picture of each view is being written or waits to be written.
   KeptViews keeps() const override { return {1, 0}; }
   void accept(const ViewPtr& view) override;
-  /// Drops the requests of views that are not live any more.
+  /// Drops requests of views that are no longer live.
   void accept(const Status& status) override;
 
   /// Snapshots since start that are on disk.
@@ -74,12 +74,13 @@ class SnapshotSink final : public Sink {
 
   const SnapshotSettings settings_;
   std::array<std::atomic<bool>, kMaxViews> live_{};    ///< by view
-  std::array<std::atomic<bool>, kMaxViews> busy_{};    ///< by view: requested or written
+  std::array<std::atomic<bool>, kMaxViews> busy_{};    ///< by view: requested or being written
   std::array<std::atomic<bool>, kMaxViews> wanted_{};  ///< by view: request for its next picture
-  std::bitset<kMaxViews> asked_;  ///< by view: the next picture serves a request; accept's thread
+  /// By view: the next picture serves a request; used by accept()'s thread only.
+  std::bitset<kMaxViews> asked_;
   std::mutex mutex_;
-  std::array<ViewPtr, kMaxViews> accepted_;  ///< by view: to be written; under mutex_
-  std::bitset<kMaxViews> dropped_;           ///< by view: to be logged; under mutex_
+  std::array<ViewPtr, kMaxViews> accepted_;  ///< by view: to be written; guarded by mutex_
+  std::bitset<kMaxViews> dropped_;           ///< by view: to be logged; guarded by mutex_
   std::atomic<std::uint64_t> written_{0};
   hal::Thread thread_;
 };

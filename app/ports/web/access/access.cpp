@@ -19,10 +19,11 @@ std::filesystem::path logins_file(const std::filesystem::path& folder) {
   return folder / "logins.json";
 }
 
-/// One for all that cannot be a name, so that they take no place of others.
+/// Name for counting; all invalid names share one entry, so that they do not displace others.
 std::string limited_name(const std::string& name) { return check_name(name) ? name : "(no name)"; }
 
-/// One address of 127.0.0.0/8 only: any program of this computer can use all others.
+/// Returns true for one address of 127.0.0.0/8 only, because any program of this computer can use
+/// the others.
 bool is_this_computer(const std::string& peer) { return peer == "127.0.0.1" || peer == "::1"; }
 
 LoginLimits::Attempt attempt_of(const std::string& name, const std::string& peer) {
@@ -80,8 +81,8 @@ bool Access::is_outdated() const {
   return present != mark_;
 }
 
-/// Asks the file system each time: between a first password and the next refresh() nobody is
-/// trusted any more.
+/// Asks the file system each time, so that trust ends with the first password, before the next
+/// refresh().
 bool Access::may_trust() const { return folder_.empty() || mark().error == ENOENT; }
 
 void Access::refresh() {
@@ -89,7 +90,8 @@ void Access::refresh() {
   if (is_outdated()) load(Cause::OtherProcess);
 }
 
-/// A file that is gone (unmounted, removed) after there were users is a fault, not an open door.
+/// Loads the users. A file that is missing (unmounted, removed) after there were users is a fault;
+/// it does not give access.
 Result<std::optional<Users>> Access::load_checked() {
   const auto file = users_file(folder_);
   auto loaded = load_users(file);
@@ -116,14 +118,15 @@ void Access::load(Cause cause) {
   code_ = code;
   fault_ = fault;
   state_ = !loaded ? State::Unusable : *loaded ? State::Users : State::Nobody;
-  // A file that is gone or damaged for a while is no reason to forget failures when it is back.
+  // Failures are kept while the file is missing or damaged.
   if (!loaded) return;
   Users now = *loaded ? std::move(**loaded) : Users{};
   forgive_new_passwords(now, cause);
   users_ = std::move(now);
 }
 
-/// A password that is set at the board lets its user log in at once, from anywhere.
+/// Resets the limits of users whose password was set at the board, so that they can log in at once,
+/// from anywhere.
 void Access::forgive_new_passwords(const Users& now, Cause cause) {
   if (cause == Cause::Start) return;
   for (const User& user : now.users) {
@@ -134,7 +137,7 @@ void Access::forgive_new_passwords(const Users& now, Cause cause) {
   }
 }
 
-/// Empty: there is none. It ends with the first password.
+/// Code for the first password; empty: there is none. It becomes invalid with the first password.
 std::string Access::code_for(const Result<std::optional<Users>>& loaded) const {
   if (!loaded) return "";
   if (*loaded) {
@@ -156,7 +159,7 @@ std::string Access::code_for(const Result<std::optional<Users>>& loaded) const {
   return *code;
 }
 
-/// Without the file only a restart would forget.
+/// Saves sessions and limits; without the file they are lost only at a restart.
 void Access::keep() {
   Sessions sessions{Sessions::Limits{}};
   LoginLimits limits;
@@ -165,7 +168,7 @@ void Access::keep() {
     sessions.restore(sessions_.all());
     limits = limits_;
   }
-  // The marker is missing in a folder that was made anew after it was removed.
+  // The marker is missing in a folder that was created again after its removal.
   if (has_users()) {
     const auto kept = keep_that_users_exist(users_file(folder_));
     if (!kept) log_line(LogLevel::Error, "web: " + kept.error().message);
@@ -227,7 +230,7 @@ std::optional<Access::Refusal> Access::judge_first_password(const std::string& p
   return too_many("codes", wait);
 }
 
-/// A users file that is not read yet leaves the decision to the desk, which reads it.
+/// If the users file is not read yet, the decision is left to the desk, which reads it.
 std::optional<Access::Refusal> Access::login_refusal(const std::string& name,
                                                      const std::string& peer) const {
   if (is_outdated()) return std::nullopt;
@@ -247,8 +250,8 @@ bool Access::is_familiar(const std::string& name, const std::string& peer) const
   return attempt.is_local || limits_.is_familiar(attempt);
 }
 
-/// The disk is not waited for here: what is counted is kept with the next login. It counts by
-/// address alone: a name's limit would let strangers keep a recorder out.
+/// Does not wait for the disk: counts are saved with the next login. Failures count by address
+/// only, because a limit per name would let strangers lock a recorder out.
 tl::expected<Caller, Access::Refusal> Access::player(const Credentials& credentials) {
   if (!credentials.is_password || !has_users()) return caller(credentials);
   const auto attempt = nameless_attempt_of(credentials.peer);

@@ -17,65 +17,67 @@
 
 namespace orbwatch::app::web {
 
-/// Says who a caller is, by the users file of the state folder. Until a first password is set
-/// there, whoever is on this computer is administrator and nobody else is anything; a file that
-/// cannot be used, or is gone after it has been there, makes everybody nobody.
+/// Authenticates callers by the users file of the state folder. Until a first password is set
+/// there, callers on this computer are administrators and others have no role; if the file is
+/// unusable, or missing after it existed, no caller has a role.
 ///
 /// Thread rule: caller, player, login_refusal, first_password_refusal, is_familiar, has_users,
-/// failures and users on any thread, they wait for nothing; refresh on any thread, too, it waits
-/// for the disk; the rest on one thread at a time, it waits for the disk, login and change_password
-/// for a hash, too.
+/// failures and users on any thread, without waiting; refresh on any thread, it waits for the disk;
+/// everything else on one thread at a time, waiting for the disk, login and change_password also
+/// for a hash.
 class Access {
  public:
-  /// Why somebody was not let in.
+  /// Reason of a refused login.
   struct Refusal {
-    int status = 0;  ///< of HTTP
+    int status = 0;  ///< HTTP status
     std::string what;
     std::chrono::seconds retry_after{0};
   };
   using Token = tl::expected<std::string, Refusal>;
   using ClockOfUtc = std::function<Utc()>;
 
-  /// `state_folder` empty: nobody can set a password.
+  /// `state_folder` empty: passwords cannot be set.
   Access(std::filesystem::path state_folder, Sessions::Limits limits, ClockOfUtc clock = utc_now);
 
-  /// Reads the files. Complains in the log. `gives_code`: as long as there are no users it logs the
-  /// code with which another computer sets the first password.
+  /// Reads the files; logs errors. `gives_code`: while there are no users, logs the code with which
+  /// another computer sets the first password.
   void start(bool gives_code = false);
-  /// Keeps when sessions were used last.
+  /// Saves the times of the sessions' last use.
   void stop();
-  /// Reads the users again when their file has changed.
+  /// Reads the users again if their file has changed.
   void refresh();
 
-  /// Trust without a password ends when the users file appears, before refresh() reads it.
+  /// The caller with its role. Trust without a password ends when the users file appears, before
+  /// refresh() reads it.
   Caller caller(const Credentials& credentials);
-  /// The same, and a token that came as a password and is none counts as a failed login of its
-  /// address. Refusal: 429, its address has too many of them.
+  /// Like caller(), and an invalid token sent as a password counts as a failed login of its
+  /// address. Refusal: 429, the address has too many failures.
   tl::expected<Caller, Refusal> player(const Credentials& credentials);
   bool has_users() const;
-  /// Wrong passwords and codes since start.
+  /// Number of wrong passwords and codes since the start.
   std::uint64_t failures() const { return failures_; }
 
-  /// The refusal with which login() and set_first_password() answer any password or code at
-  /// present; nullopt: they judge it.
+  /// The refusal that login() and set_first_password() give for any password or code at present;
+  /// nullopt: the secret is checked.
   std::optional<Refusal> login_refusal(const std::string& name, const std::string& peer) const;
   std::optional<Refusal> first_password_refusal(const std::string& peer) const;
-  /// True: the name has logged in before from this address, or it is this computer.
+  /// Returns whether the name has logged in from this address before, or the address is this
+  /// computer.
   bool is_familiar(const std::string& name, const std::string& peer) const;
 
-  /// The token of a new session.
+  /// Logs in; returns the token of a new session.
   Token login(const std::string& name, const std::string& password, const std::string& peer);
-  /// False: there was no such session.
+  /// Ends a session. False: there was no such session.
   bool logout(const std::string& session);
-  /// Of whoever knows the present one; ends the sessions of the user and begins a new one.
+  /// Changes a password given the present one; ends the user's sessions and starts a new one.
   Token change_password(const std::string& name, const std::string& old_password,
                         const std::string& new_password, const std::string& peer);
-  /// Makes the first user, kFirstUser, for whoever knows the code, and begins a session.
+  /// Creates the first user, kFirstUser, given the code, and starts a session.
   Token set_first_password(const std::string& code, const std::string& password,
                            const std::string& peer);
-  /// Errors: as change_users().
+  /// Changes the users. Errors: those of change_users().
   Result<> change(const std::function<Result<>(Users&)>& change);
-  /// As they are now; nobody when the file is absent or cannot be used.
+  /// Present users; none if the file is absent or unusable.
   Users users() const;
 
   static Utc utc_now();
@@ -83,8 +85,9 @@ class Access {
  private:
   /// Identifies a version of the users file.
   struct FileMark {
-    int error = 0;                              ///< of lstat; 0: the file is there
-    std::int64_t seconds = 0, nanoseconds = 0;  ///< of the newest change, rights included
+    int error = 0;  ///< errno of lstat; 0: the file exists
+    /// Time of the newest change, including permissions.
+    std::int64_t seconds = 0, nanoseconds = 0;
     std::uint64_t number = 0;
     bool operator==(const FileMark&) const = default;
   };
@@ -108,19 +111,19 @@ class Access {
 
   const std::filesystem::path folder_;
   const ClockOfUtc clock_;
-  std::mutex files_mutex_;   ///< also while the users file is read; before mutex_
+  std::mutex files_mutex_;   ///< held also while the users file is read; locked before mutex_
   bool gives_code_ = false;  ///< under files_mutex_
   bool had_users_ = false;   ///< under files_mutex_
 
   std::atomic<std::uint64_t> failures_{0};
 
-  mutable std::mutex
-      mutex_;      ///< of what follows; never held while the disk or a hash is waited for
-  FileMark mark_;  ///< of the users file as it was read
+  /// Guards the following members; never held while waiting for the disk or a hash.
+  mutable std::mutex mutex_;
+  FileMark mark_;  ///< mark of the users file that was read
   State state_ = State::Nobody;
   std::string fault_;
-  Users users_;       ///< the newest that were read
-  std::string code_;  ///< for the first password; empty: there is none
+  Users users_;       ///< newest users read
+  std::string code_;  ///< code for the first password; empty: none
   Sessions sessions_;
   LoginLimits limits_;
 };

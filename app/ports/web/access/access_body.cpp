@@ -6,7 +6,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// {"user": "...", "role": "..." (may be left out)}
+/// Form of a body: {"user": "...", "role": "..." (optional)}.
 std::string form(const std::vector<BodyMember>& allowed) {
   std::string text = "{";
   for (const BodyMember& member : allowed) {

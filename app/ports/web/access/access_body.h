@@ -10,11 +10,11 @@
 
 namespace orbwatch::app::web {
 
-/// Texts of a body by name; one that was left out is empty.
+/// Texts of a body by name; an omitted one is empty.
 using Members = std::map<std::string, std::string, std::less<>>;
 
-/// A JSON object with these texts. Errors: it is none; a member is missing, unknown or no text.
-/// Never quotes a value, which may be a password. Reentrant.
+/// Parses a JSON object with these texts. Errors: not an object; a member is missing, unknown or
+/// not a string. Never quotes a value, which may be a password. Reentrant.
 Result<Members> parse_members(const std::vector<BodyMember>& allowed, std::string_view body);
 
 }  // namespace orbwatch::app::web

@@ -37,7 +37,7 @@ Json list_of(const std::vector<One>& all) {
   return list;
 }
 
-/// Error: there was none of that name.
+/// Removes the entry of this name. Error: unknown name.
 template <class One>
 Result<> remove(std::vector<One>& all, const std::string& name, const char* what) {
   if (std::erase_if(all, [&](const One& one) { return one.name == name; }) > 0) return {};
@@ -70,7 +70,7 @@ Route AccessDesk::changing(const char* path, Role role, const char* description,
   return route;
 }
 
-/// Runs on a thread of the server; does not wait.
+/// Receives a request, on a thread of the server; does not wait.
 void AccessDesk::receive(const ExchangePtr& exchange, Members members, const Task& task) {
   const web::Request& sent = exchange->request();
   if (task.refuse) {
@@ -93,7 +93,8 @@ Audit::Entry AccessDesk::entry_of(const Request& request, bool is_done) {
           is_done ? "done" : "refused"};
 }
 
-/// 503 is a fault of the appliance, not an attempt.
+/// Refusal for a caller without a role. A 503 is a fault of the appliance and does not count as an
+/// attempt.
 Response AccessDesk::refuse_unknown(Request& request, const Access::Refusal& refusal) {
   constexpr std::uint64_t kMostRefused = 20;
   if (refusal.status == kUnavailable) return refused(refusal);
@@ -106,7 +107,8 @@ Response AccessDesk::refuse_unknown(Request& request, const Access::Refusal& ref
                   wait});
 }
 
-/// A user who has logged in from an address before need not wait there for guesses of others.
+/// Client in the queues. A user does not wait behind guesses of others at an address from which the
+/// user has logged in before.
 SlowWork::Asker AccessDesk::asker(const web::Request& sent, const Members& members) const {
   const Caller caller = access_.caller(credentials_of(sent));
   if (caller.role != Role::Nobody) return {true, caller.name};
@@ -116,7 +118,7 @@ SlowWork::Asker AccessDesk::asker(const web::Request& sent, const Members& membe
           address};
 }
 
-/// Roles are judged anew, since the request may have waited.
+/// The role is checked again, because the request may have waited.
 Response AccessDesk::answer_and_note(const ExchangePtr& exchange, const Members& members,
                                      const Task& task) {
   const web::Request& sent = exchange->request();
@@ -131,8 +133,8 @@ Response AccessDesk::answer_and_note(const ExchangePtr& exchange, const Members&
   return response;
 }
 
-/// Requests that were refused because of too many are counted where they come without a role, and
-/// else not noted: they would push everything else out.
+/// Requests refused for their rate are counted if they come without a role, and otherwise not
+/// recorded, because they would displace all other entries.
 void AccessDesk::note(const Request& request, const Task& task, int status) {
   if (status == kUnavailable || request.changes_nothing) return;
   if (task.role == Role::Nobody && status != kOk) {
@@ -203,7 +205,7 @@ void AccessDesk::show_audit(const ExchangePtr& exchange) {
   });
 }
 
-/// "kim: viewer"; empty: there is no such user.
+/// Text such as "kim: viewer"; empty: unknown user.
 std::string AccessDesk::role_of(const std::string& user) const {
   const Users all = access_.users();
   const User* found = all.find(user);
@@ -234,7 +236,7 @@ Response AccessDesk::logged_in(const web::Request& request, const Access::Token&
   return response;
 }
 
-// Only a known name is noted: a password may have been typed in its place.
+// Only a known name is recorded, because a password may have been typed as the name.
 std::optional<Access::Refusal> AccessDesk::refuse_login(Request& request) const {
   const std::string& user = request.members.at("user");
   request.after = role_of(user);
@@ -278,7 +280,8 @@ Response AccessDesk::set_first_password(Request& request) {
   return logged_in(request.sent, token);
 }
 
-/// Trust in this computer ends with the first password, whoever sets it meanwhile.
+/// Changes the users. Trust in this computer ends with the first password, which may be set
+/// meanwhile.
 Result<> AccessDesk::change(const Request& request, const std::function<Result<>(Users&)>& change) {
   return access_.change([&](Users& all) -> Result<> {
     if (request.user.empty() && !all.users.empty()) {

@@ -14,14 +14,14 @@
 
 namespace orbwatch::app::web {
 
-/// The answer to whoever was not let in. Reentrant.
+/// Answer to a refused caller. Reentrant.
 Response refused(const Access::Refusal& refusal);
 
-/// The routes by which people and programs log in, and by which the administrator says who they
-/// are. Thread rule: start and stop by one owner; the routes on any thread.
+/// Routes by which users and programs log in, and by which the administrator manages them. Thread
+/// rule: start and stop by one owner; the routes on any thread.
 class AccessDesk {
  public:
-  /// `access` and `audit` outlive it. `longest` is the age of a session at most.
+  /// `access` and `audit` outlive the desk. `longest` is the limit of a session's age.
   AccessDesk(Access& access, Audit& audit, std::chrono::seconds longest)
       : access_(access), audit_(audit), longest_(longest) {}
 
@@ -36,22 +36,22 @@ class AccessDesk {
   struct Request {
     const web::Request& sent;
     const Members& members;
-    std::string user;               ///< who asks
-    std::string before{}, after{};  ///< for the audit
-    bool changes_nothing = false;   ///< has no place in the audit
+    std::string user;               ///< name of the caller
+    std::string before{}, after{};  ///< values for the audit
+    bool changes_nothing = false;   ///< not recorded in the audit
   };
   using Handler = Response (AccessDesk::*)(Request&);
-  /// The refusal that a client without a role gets whatever secret it sends; nullopt: none.
+  /// Refusal of a client without a role, regardless of the secret that it sends; nullopt: none.
   using Refuse = std::optional<Access::Refusal> (AccessDesk::*)(Request&) const;
 
-  /// Handling of a request at once and at the desk.
+  /// Handling of a request, at once and on the desk's thread.
   struct Task {
     Role role = Role::Administrator;
     Handler handler = nullptr;
     Refuse refuse = nullptr;
   };
 
-  /// `refuse` null: nothing is refused at once.
+  /// `refuse` null: no request is refused at once.
   Route changing(const char* path, Role role, const char* description, std::vector<BodyMember> body,
                  Handler handler, Refuse refuse = nullptr);
   void receive(const ExchangePtr& exchange, Members members, const Task& task);

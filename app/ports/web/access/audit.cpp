@@ -24,7 +24,7 @@ bool is_earlier(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b
   return a.value("time", "") < b.value("time", "");
 }
 
-/// Keeps the order of each, also where the clock was set back in between.
+/// Merges by time, keeping the order of each list even if the clock was set back in between.
 AuditEntries merge(AuditEntries a, AuditEntries b) {
   AuditEntries merged;
   merged.reserve(a.size() + b.size());
@@ -38,7 +38,7 @@ AuditEntries merge(AuditEntries a, AuditEntries b) {
   return merged;
 }
 
-/// The newest ones, of which each user keeps a share however many another one has; in their order.
+/// The newest entries, with a guaranteed share for each user; in their order.
 AuditEntries fair(AuditEntries all, std::size_t most) {
   constexpr std::size_t kUsers = 10;
   if (all.size() <= most) return all;
@@ -109,7 +109,7 @@ void Audit::write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_
     refused = std::exchange(waiting_, {});
   }
   std::ranges::move(refused_counts, std::back_inserter(refused));
-  // They come in the order of their kinds.
+  // The entries are in the order of their kinds.
   std::ranges::stable_sort(refused, {}, &Entry::time);
   std::ranges::stable_sort(counts, {}, &Entry::time);
   file_.append(counts);

@@ -13,14 +13,15 @@
 
 namespace orbwatch::app::web {
 
-/// The record of who did what. Entries of users and programs have files of their own (audit),
-/// those of clients without a role, who were refused, other ones (audit-refused), so that nobody
-/// without an account pushes anything else out; and of entries of one kind only the first few of an
-/// hour are noted each. Thread-safe.
+/// Audit trail. Entries of users and programs (audit) and of refused clients without a role
+/// (audit-refused) are in separate files, so that clients without an account cannot displace other
+/// entries; of one kind of entries only the first few of an hour are recorded individually.
+/// Thread-safe.
 class Audit {
  public:
-  /// Entries of one kind that are noted each, of a user and of a client without a role. A kind is
-  /// who, what, result and subject; for clients without a role address, what and value.
+  /// Number of entries of one kind that are recorded individually, for users and for clients
+  /// without a role. A kind is user, action, result and subject; for clients without a role
+  /// address, action and value.
   static constexpr std::uint64_t kFree = 20;
   static constexpr std::uint64_t kFreeRefused = 1;
   /// Limits for kinds within an hour, by users and by clients without a role.
@@ -31,24 +32,24 @@ class Audit {
 
   using Entry = AuditEntry;
 
-  /// An empty folder: nothing is kept.
+  /// `state_folder` empty: nothing is recorded.
   explicit Audit(const std::filesystem::path& state_folder);
 
-  /// Notes what a user or program did, or counts it. Entries with different `subject`s are never
-  /// counted together. Logs an error when it cannot be written. Waits for the disk.
+  /// Records an action of a user or program, or counts it. Entries with different `subject`s are
+  /// never counted together. Logs an error if the file cannot be written. Waits for the disk.
   void note(const Entry& entry, const std::string& subject = "");
-  /// Counts what a client without a role was refused; the next write_due() notes the first. Returns
-  /// the number of this kind within the hour. Does not wait.
+  /// Counts a refused request of a client without a role; the next write_due() records the first
+  /// ones. Returns the count of this kind within the hour. Does not wait.
   std::uint64_t note_refused(const Entry& entry);
 
-  /// Notes what was refused, and counts that are due. Waits for the disk.
+  /// Records refused requests, and counts that are due. Waits for the disk.
   void write_due(Repetitions::Time now);
-  /// The same, and all other counts.
+  /// Like write_due(), and records all other counts.
   void write_all();
 
   /// `{"entries": [...]}` as JSON, the newest last, at most kMostRefusedShown of clients without a
-  /// role; a tenth is for each user's newest ones, so that nobody pushes others' out of sight.
-  /// Waits for the disk.
+  /// role; a tenth is reserved for each user's newest entries, so that one user cannot displace
+  /// those of others. Waits for the disk.
   std::string newest(std::size_t most) const;
 
  private:
@@ -56,10 +57,11 @@ class Audit {
 
   AuditFile file_;
   AuditFile refused_file_;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< guards the following members
   Repetitions repetitions_{kFree, kMostKinds};
   Repetitions refused_{kFreeRefused, kMostRefusedKinds};
-  std::vector<Entry> waiting_;  ///< refused ones to be noted as they are; bounded by refused_
+  /// Refused entries to be recorded individually; bounded by refused_.
+  std::vector<Entry> waiting_;
 };
 
 }  // namespace orbwatch::app::web

@@ -26,11 +26,12 @@ std::string line_of(const AuditEntry& entry) {
                        {"before", entry.before},
                        {"after", entry.after},
                        {"result", entry.result}};
-  // A name that was tried may be no text.
+  // An attempted name may not be valid UTF-8.
   return line.dump(-1, ' ', false, AuditJson::error_handler_t::replace) + "\n";
 }
 
-/// Begins a new line when a power cut has left a part of one. False with errno.
+/// Appends lines, after a line break if a power cut has left a partial line. False: failed, errno
+/// is set.
 bool append_to(const std::filesystem::path& file, std::string lines) {
   const hal::FileDescriptor opened(::open(
       file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR));
@@ -55,7 +56,7 @@ void add_lines(const std::filesystem::path& file, std::vector<AuditJson>& entrie
 
 }  // namespace
 
-/// Several entries at a time, since each write waits for the disk.
+/// Appends several entries at once, because each write waits for the disk.
 void AuditFile::append(const std::vector<AuditEntry>& entries) {
   constexpr std::size_t kMostAtOnce = 64 * 1024;
   if (folder_.empty() || entries.empty()) return;

@@ -12,21 +12,22 @@
 
 namespace orbwatch::app::web {
 
-/// Audit entries on the disk, as lines of JSON: NAME.jsonl of the state folder and, once it is
-/// full, the one before, NAME.1.jsonl. Only its owner reads them. Thread-safe; waits for the disk.
+/// Audit entries on the disk, as lines of JSON: NAME.jsonl of the state folder and, once that was
+/// full, the previous one, NAME.1.jsonl. Only their owner may read them. Thread-safe; waits for the
+/// disk.
 class AuditFile {
  public:
-  /// Largest size of a file, which then becomes the one before: a few thousand entries.
+  /// Size at which a file becomes the previous one: a few thousand entries.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 
-  /// An empty folder: nothing is kept.
+  /// `state_folder` empty: nothing is recorded.
   AuditFile(std::filesystem::path state_folder, std::string name)
       : folder_(std::move(state_folder)), name_(std::move(name)) {}
 
-  /// Logs an error when they cannot be written.
+  /// Appends entries; logs an error if they cannot be written.
   void append(const std::vector<AuditEntry>& entries);
 
-  /// The newest entries, the newest last. Lines that a power cut left in part are omitted.
+  /// The newest entries, the newest last. Partial lines after a power cut are omitted.
   std::vector<nlohmann::ordered_json> newest(std::size_t most) const;
 
  private:
@@ -36,7 +37,7 @@ class AuditFile {
 
   const std::filesystem::path folder_;
   const std::string name_;
-  mutable std::mutex mutex_;  ///< also while the disk is waited for
+  mutable std::mutex mutex_;  ///< held also while waiting for the disk
 };
 
 }  // namespace orbwatch::app::web

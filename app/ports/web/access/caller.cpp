@@ -10,7 +10,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// Credentials behind the scheme in Authorization (RFC 9110, 11.4); nullopt: there are none.
+/// Credentials after the scheme in Authorization (RFC 9110, 11.4); nullopt: none.
 std::optional<std::string> authorization_by(const Request& request, std::string_view scheme) {
   const std::string* sent = request.header("Authorization");
   if (!sent || sent->size() <= scheme.size() || (*sent)[scheme.size()] != ' ' ||
@@ -21,7 +21,7 @@ std::optional<std::string> authorization_by(const Request& request, std::string_
   return begin == std::string::npos ? "" : sent->substr(begin);
 }
 
-/// The password in "user:password" as Base64; empty: it is not that.
+/// The password of a Base64 text "user:password"; empty: malformed.
 std::string password_in(const std::string& base64) {
   std::string text(base64.size(), '\0');
   std::size_t size = 0;

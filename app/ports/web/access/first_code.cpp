@@ -11,14 +11,14 @@ namespace orbwatch::app::web {
 namespace {
 
 constexpr std::size_t kCharacters = 8, kGroup = 4;
-/// Crockford's base 32.
+/// Alphabet of Crockford's base 32.
 constexpr std::string_view kAlphabet = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 
 std::filesystem::path code_file(const std::filesystem::path& folder) {
   return folder / "first-code";
 }
 
-/// Its characters as kAlphabet has them.
+/// Maps typed characters to those of kAlphabet.
 std::string plain(std::string_view typed) {
   std::string plain;
   for (const char c : typed) {

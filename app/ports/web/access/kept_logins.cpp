@@ -31,7 +31,7 @@ Json familiar_json(const std::vector<LoginLimits::Familiar>& familiar) {
   return list;
 }
 
-/// Absent in the files of versions before.
+/// Reads familiar addresses, which files of earlier versions do not have.
 std::vector<LoginLimits::Familiar> to_familiar(const Json& all) {
   std::vector<LoginLimits::Familiar> familiar;
   for (const Json& one : all.value("familiar", Json::array())) {
@@ -87,7 +87,7 @@ Result<> save_logins(const std::filesystem::path& file, const Sessions& sessions
                  {"names", entries_json(limits.names())},
                  {"addresses", entries_json(limits.addresses())},
                  {"familiar", familiar_json(limits.familiar())}};
-  // A name that somebody tried may be no text.
+  // An attempted name may not be valid UTF-8.
   return write_private(file, all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::seconds;
 using Entries = std::vector<LoginLimits::Entry>;
 
-/// Also an entry from the future, after the clock was set back.
+/// Returns whether an entry has expired, or is from the future after the clock was set back.
 bool is_forgotten(const LoginLimits::Entry& entry, Utc now) {
   return now - entry.last >= LoginLimits::kForgetAfter ||
          entry.last - now >= LoginLimits::kForgetAfter;
@@ -39,7 +39,8 @@ bool is_for(const LoginLimits::Familiar& familiar, const LoginLimits::Attempt& a
   return familiar.failed.key == attempt.name && familiar.address == attempt.address;
 }
 
-/// A flood of new keys replaces each other, not those that already have to wait.
+/// Counts a failure. In a flood of new keys these replace each other, not those that already have
+/// to wait.
 void count(Entries& entries, const std::string& key, Utc now) {
   std::erase_if(entries, [&](const auto& entry) { return is_forgotten(entry, now); });
   const auto found = std::ranges::find(entries, key, &LoginLimits::Entry::key);
@@ -69,8 +70,8 @@ seconds LoginLimits::wait(const Attempt& attempt, Utc now) const {
   }
   if (attempt.is_local) return wait_of(addresses_, attempt.address, kLongestForName, now);
   const seconds for_address = wait_of(addresses_, attempt.address, kLongestForAddress, now);
-  // A code has 40 random bits: the addresses' limits suffice, and one for all of them would keep
-  // whoever holds the code out.
+  // A code has 40 random bits: limits per address suffice, and a common limit would lock out the
+  // holder of the code.
   if (attempt.name.empty()) return for_address;
   return std::max(for_address, wait_of(names_, attempt.name, kLongestForName, now));
 }

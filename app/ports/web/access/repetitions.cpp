@@ -6,14 +6,14 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// Also a moment from the future, after the clock was set back.
+/// Returns whether a period has ended, or began in the future after the clock was set back.
 bool is_over(Repetitions::Time begun, std::chrono::minutes period, Repetitions::Time now) {
   return now - begun >= period || begun - now >= period;
 }
 
 }  // namespace
 
-/// The empty name stands for all kinds beyond the limit.
+/// Finds or adds a kind; the empty name represents all kinds beyond the limit.
 Repetitions::Kinds::iterator Repetitions::find(const std::string& name, Time now) {
   const auto found = kinds_.find(name);
   if (found != kinds_.end()) return found;
@@ -28,7 +28,7 @@ Repetitions::Counted Repetitions::count(const std::string& name, AuditEntry entr
     kind.count = 0;
   }
   ++kind.count;
-  // A count that waits is noted before anything newer of its kind.
+  // A waiting count is recorded before newer entries of its kind.
   if (kind.count <= free_ && kind.more == 0) return {true, kind.count};
   if (found->first.empty()) entry.from = "(others)";
   if (++kind.more > 1) entry.before = std::move(kind.newest.before);

@@ -11,30 +11,30 @@
 
 namespace orbwatch::app::web {
 
-/// Keeps repetitions from filling the audit: of entries of one kind the first few of an hour are
-/// noted as they are, further ones are counted, and noted together with their count. Memory is
-/// bounded. Thread-bound.
+/// Keeps repetitions from filling the audit: the first few entries of one kind in an hour are
+/// recorded individually, further ones are counted, and recorded together with their count. Memory
+/// is bounded. Thread-bound.
 class Repetitions {
  public:
   using Time = std::chrono::system_clock::time_point;
 
   static constexpr std::chrono::minutes kPeriod{60};
-  /// A count is due so long after the one before.
+  /// Period after which a count is due.
   static constexpr std::chrono::minutes kReportPeriod{10};
 
-  /// `free` entries of each kind are noted as they are. Beyond `most_kinds` all further kinds count
-  /// as one.
+  /// `free` entries of each kind are recorded individually. All kinds beyond `most_kinds` count as
+  /// one.
   Repetitions(std::uint64_t free, std::size_t most_kinds) : free_(free), most_kinds_(most_kinds) {}
 
   struct Counted {
-    bool is_noted = false;    ///< is to be noted as it is
-    std::uint64_t count = 0;  ///< of this kind within the period, this one included
+    bool is_noted = false;    ///< to be recorded individually
+    std::uint64_t count = 0;  ///< entries of this kind within the period, including this one
   };
-  /// `kind` is not empty.
+  /// Counts an entry; `kind` is not empty.
   Counted count(const std::string& kind, AuditEntry entry);
 
-  /// Entries with the counts that are due, or all that are not noted yet. Each is the newest of its
-  /// kind with the value before the oldest counted one; its result says "done, 312 more".
+  /// Removes and returns entries with due counts. Each is the newest of its kind with the previous
+  /// value of the oldest counted one; its result reads "done, 312 more".
   std::vector<AuditEntry> take_due(Time now);
   std::vector<AuditEntry> take_all();
 
@@ -43,8 +43,8 @@ class Repetitions {
     Time begun{};
     Time reported{};
     std::uint64_t count = 0;
-    std::uint64_t more = 0;  ///< not noted yet
-    AuditEntry newest{};     ///< counted one
+    std::uint64_t more = 0;  ///< not recorded yet
+    AuditEntry newest{};     ///< newest counted entry
   };
 
   using Kinds = std::map<std::string, Kind>;

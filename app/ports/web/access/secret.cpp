@@ -9,7 +9,8 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// Without the library's random numbers nothing here is safe.
+/// Ends the process if the library cannot be initialised, because nothing here is secure without
+/// its random numbers.
 void need_library() {
   static const bool is_ready = ::sodium_init() >= 0;
   if (!is_ready) std::abort();
@@ -20,17 +21,17 @@ std::string as_text(const std::array<unsigned char, N>& bytes) {
   constexpr int kVariant = sodium_base64_VARIANT_URLSAFE_NO_PADDING;
   std::string text(sodium_base64_ENCODED_LEN(N, kVariant), '\0');
   ::sodium_bin2base64(text.data(), text.size(), bytes.data(), N, kVariant);
-  text.pop_back();  // the zero at its end
+  text.pop_back();  // removes the terminating zero
   return text;
 }
 
-/// Of UTF-8: bytes that begin one.
+/// Number of characters in UTF-8: bytes that begin one.
 std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// What no password has, for names that are unknown: they take as long as those that are not.
+/// A hash that matches no password, for unknown names, so that they take as long as known ones.
 const std::string& hash_of_nobody() {
   static const std::string hash = hash_password(random_token()).value_or("");
   return hash;

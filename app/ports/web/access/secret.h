@@ -12,26 +12,27 @@ namespace orbwatch::app::web {
 inline constexpr std::size_t kLeastPasswordCharacters = 12;
 inline constexpr std::size_t kMostPasswordBytes = 512;
 
-/// Error: it is too short or too long, in words for the person who chose it.
+/// Checks the length. Error: too short or too long, with a text for the user.
 Result<> check_password(std::string_view password);
 
-/// Argon2id with a random salt, as text: takes 64 MiB and a tenth of a second or more. Error: there
-/// is no memory for it.
+/// Argon2id with a random salt, as text: takes 64 MiB and a tenth of a second or more. Error: out
+/// of memory.
 Result<std::string> hash_password(std::string_view password);
 
-/// Whether hash_password() made `hash` of it; takes as long, whatever `hash` is.
+/// Returns whether `hash` is the hash_password() of `password`; takes the same time for any `hash`.
 bool is_password(const std::string& hash, std::string_view password);
 
-/// 256 random bits, of letters, digits, - and _.
+/// 256 random bits as letters, digits, - and _.
 std::string random_token();
 
-/// 0 to `end` - 1, each as likely.
+/// Uniform random number from 0 to `end` - 1.
 std::uint32_t random_below(std::uint32_t end);
 
-/// Takes as long wherever they differ.
+/// Compares in constant time.
 bool equal_secrets(std::string_view a, std::string_view b);
 
-/// By which a token is kept. Reveals nothing of it, since all of its bits are random.
+/// Hash under which a token is stored. It does not reveal the token, because all bits of the token
+/// are random.
 std::string token_hash(std::string_view token);
 
 }  // namespace orbwatch::app::web

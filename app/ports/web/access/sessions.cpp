@@ -39,7 +39,7 @@ bool Sessions::end(std::string_view token) {
   return std::erase_if(all_, [&](const Session& one) { return one.hash == hash; }) > 0;
 }
 
-/// Also one from the future, after the clock was set back.
+/// Returns whether a session has ended, or is from the future after the clock was set back.
 bool Sessions::has_ended(const Session& session, Utc now) const {
   return now - session.used >= limits_.idle || now - session.begun >= limits_.age ||
          session.begun - now >= limits_.idle;

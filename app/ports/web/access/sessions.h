@@ -10,11 +10,11 @@
 
 namespace orbwatch::app::web {
 
-/// Who has logged in. A session ends when it is unused for long, at its greatest age, when its user
-/// is gone and when the user's password has changed. Thread-bound.
+/// Sessions of logged-in users. A session ends when it is idle too long, at its largest age, when
+/// its user is removed and when the user's password changes. Thread-bound.
 class Sessions {
  public:
-  /// Of one user; one more ends the one that was unused longest.
+  /// Limit of sessions of one user; a further one ends the one idle longest.
   static constexpr std::size_t kMostOfUser = 32;
 
   struct Limits {
@@ -22,23 +22,23 @@ class Sessions {
     std::chrono::seconds age{};
   };
   struct Session {
-    std::string hash;  ///< of its token, which nobody keeps
+    std::string hash;  ///< hash of its token; the token itself is not stored
     std::string user;
-    std::string password;  ///< token_hash() of the user's password as it is kept
+    std::string password;  ///< token_hash() of the user's stored password hash
     Utc begun{};
     Utc used{};
   };
 
   explicit Sessions(Limits limits) : limits_(limits) {}
 
-  /// Returns the token.
+  /// Starts a session; returns its token.
   std::string begin(const User& user, Utc now);
-  /// The user of a session, which is used by that; null: there is none such.
+  /// Returns the user of a session and marks it as used; null: unknown session.
   const User* use(std::string_view token, const Users& users, Utc now);
-  /// False: there is none such.
+  /// Ends a session. False: unknown session.
   bool end(std::string_view token);
 
-  /// For the disk.
+  /// All sessions, for saving.
   const std::vector<Session>& all() const { return all_; }
   void restore(std::vector<Session> all) { all_ = std::move(all); }
 

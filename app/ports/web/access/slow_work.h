@@ -12,32 +12,34 @@
 namespace orbwatch::app::web {
 
 /// Answers requests that wait for a hash of a password, for a check of a whole configuration or for
-/// the disk, one after the other on a thread of its own in the background, so that a flood of them
-/// takes one core's spare time and no more memory than one of them. Known and unknown clients have
-/// a queue each, served in turn: neither can keep the other out. Thread rule: start and stop by one
+/// the disk, one after the other on a separate background thread, so that a flood of them uses at
+/// most one core's idle time and the memory of one. Known and unknown clients have separate queues,
+/// served alternately, so that neither can lock the other out. Thread rule: start and stop by one
 /// owner; run on any thread.
 class SlowWork {
  public:
-  /// Limit of each queue; one more is refused with 503.
+  /// Limit of each queue; a further request is refused with 503.
   static constexpr std::size_t kMostWaiting = 8;
-  /// Limits of one asker in its queue.
+  /// Limits of one client in its queue.
   static constexpr std::size_t kMostOfKnown = 4;
   static constexpr std::size_t kMostOfUnknown = 2;
 
-  /// A client that waits.
+  /// A waiting client.
   struct Asker {
-    bool is_known = false;  ///< has a role, or asks from where the user has logged in before
-    std::string key;        ///< a name or an address
+    /// Has a role, or comes from an address from which the user has logged in before.
+    bool is_known = false;
+    std::string key;  ///< name or address
   };
 
-  /// `thread` is its name; `busy` says why one more is refused. Both are kept as they are.
+  /// `thread` is its name; `busy` is the reason with which further requests are refused. Both are
+  /// stored as pointers.
   SlowWork(const char* thread, const char* busy) : thread_name_(thread), busy_(busy) {}
 
   void start();
   void stop() { thread_.stop(); }
 
-  /// `work` makes the answer. It is not begun when the request was answered by its deadline; once
-  /// begun its answer is given, however late.
+  /// `work` makes the answer. It is not started if the request was answered by its deadline; once
+  /// started its answer is sent, however late.
   void run(const ExchangePtr& exchange, const Asker& asker, std::function<Response()> work);
 
   std::chrono::nanoseconds cpu_time() const { return thread_.cpu_time(); }
@@ -51,13 +53,13 @@ class SlowWork {
   using Queue = std::deque<Waiting>;
 
   void work_all();
-  Queue& next_queue();  ///< empty: nobody waits; under mutex_
+  Queue& next_queue();  ///< empty: no request waits; guarded by mutex_
 
   const char* const thread_name_;
   const char* const busy_;
   std::mutex mutex_;
   Queue known_, unknown_;   ///< under mutex_
-  bool was_known_ = false;  ///< the newest that was served; under mutex_
+  bool was_known_ = false;  ///< kind of the client served last; guarded by mutex_
   hal::Thread thread_;
 };
 

@@ -14,13 +14,13 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostNameBytes = 32;
 constexpr int kVersion = 1;
 
-/// Empty: there is no such member, or it is no text.
+/// Text of a member; empty: missing, or not a string.
 std::string text_of(const Json& object, const char* member) {
   const auto found = object.is_object() ? object.find(member) : object.end();
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// The members of `kind` that are people or programs; `secret` names their hash.
+/// Reads the list `kind` of users or programs; `secret` names the member with the hash.
 template <class One>
 Result<std::vector<One>> parse_all(const Json& all, const char* kind, const char* secret_name,
                                    std::string One::*secret) {
@@ -63,7 +63,7 @@ std::filesystem::path marker_of(const std::filesystem::path& file) {
   return file.parent_path() / "password-is-set";
 }
 
-/// Nullopt: there is no file.
+/// Reads the file; nullopt: there is none.
 Result<std::optional<Users>> read_users(const std::filesystem::path& file) {
   const auto text = read_private(file);
   if (!text) return tl::unexpected(text.error());

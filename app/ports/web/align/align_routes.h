@@ -9,11 +9,11 @@
 
 namespace orbwatch::app::web {
 
-/// Serves what alignments are judged by; commands change them. Pictures are made elsewhere: no
-/// thread of the server waits. Thread-safe.
+/// Serves states and pictures from which users judge alignments, which commands change. Pictures
+/// are made on other threads: no thread of the server waits. Thread-safe.
 class AlignRoutes {
  public:
-  /// `source`: null: there is nothing to be aligned; else it outlives the routes' use.
+  /// `source` outlives the routes' use; null: there is no camera to align.
   AlignRoutes(std::vector<std::string> cameras, AlignmentSource* source)
       : cameras_(std::move(cameras)), source_(source) {}
 

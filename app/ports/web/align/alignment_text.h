@@ -7,8 +7,8 @@
 
 namespace orbwatch::app::web {
 
-/// {"cameras": [...]}: what is known of each camera's alignment, as JSON. Pixels are [u, v], points
-/// [x, y, z]. Reentrant.
+/// {"cameras": [...]}: the state of each camera's alignment, as JSON. Pixels are [u, v], points [x,
+/// y, z]. Reentrant.
 std::string alignment_json(const std::vector<std::string>& cameras,
                            const std::vector<AlignmentReport>& reports);
 

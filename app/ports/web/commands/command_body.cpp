@@ -8,7 +8,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// {"view": 0 to 65535, "yaw": ...}
+/// Form of a body: {"view": 0 to 65535, "yaw": ...}.
 std::string form(const CommandInfo& info) {
   std::string text = "{";
   for (std::size_t i = 0; i < info.argument_count(); ++i) {

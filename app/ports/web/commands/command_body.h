@@ -8,12 +8,12 @@
 
 namespace orbwatch::app::web {
 
-/// A command from the body of its request: a JSON object with each argument by its name, in its
-/// unit; an empty body stands for no arguments. Errors: not such an object; an argument is missing,
+/// Parses a command from the body of its request: a JSON object with each argument by its name, in
+/// its unit; an empty body means no arguments. Errors: not such an object; an argument is missing,
 /// unknown, not a number or out of range. Reentrant.
 Result<Command> parse_command(const CommandInfo& info, std::string_view body);
 
-/// As parse_command() takes it: {"view":0,"yaw":12.5}; empty without arguments. Reentrant.
+/// Body that parse_command() accepts: {"view":0,"yaw":12.5}; empty without arguments. Reentrant.
 std::string arguments_text(const CommandInfo& info, const Command& command);
 
 }  // namespace orbwatch::app::web

@@ -36,7 +36,7 @@ CommandRunner::CommandRunner(CommandHandler handler, std::shared_ptr<CommandReco
 
 void CommandRunner::start() {
   thread_.start("web commands", [this] {
-    // What was accepted before stop() is still carried out.
+    // Commands accepted before stop() are still executed.
     for (bool last = false; !last;) {
       last = !thread_.wait();
       carry_out_all();
@@ -66,7 +66,7 @@ void CommandRunner::carry_out_all() {
       waiting_.pop_front();
     }
     if (next.exchange->is_answered()) continue;
-    // Noting it waits for the disk, perhaps beyond the request's deadline.
+    // Recording waits for the disk, possibly beyond the request's deadline.
     const auto handle = [&](const Command& command) {
       return next.exchange->begin_effect() ? handler_(command) : CommandResult::NotCarriedOut;
     };

@@ -14,15 +14,15 @@
 
 namespace orbwatch::app::web {
 
-/// Carries commands out one after the other on a thread of its own, since that waits for the disk,
-/// and answers their requests. One whose request was answered by its deadline is not carried out;
-/// once its handler has begun, its result is the answer, however late.
-/// Thread rule: start and stop by one owner; the rest on any thread.
+/// Executes commands one after the other on a separate thread, because it waits for the disk, and
+/// answers their requests. A command whose request was answered by its deadline is not executed;
+/// once its handler has begun, its result is the answer, however late. Thread rule: start and stop
+/// by one owner; everything else on any thread.
 class CommandRunner {
  public:
-  /// One more is refused as busy.
+  /// Limit of waiting commands; further ones are refused as busy.
   static constexpr std::size_t kMostWaiting = 16;
-  /// Behind which the record finds them: all requests over HTTP are one client. Spells "web".
+  /// Client number in the record: all requests over HTTP are one client. Spells "web".
   static constexpr std::uint64_t kClient = 0x776562;
 
   using OnResult = std::function<void(CommandResult)>;
@@ -31,11 +31,11 @@ class CommandRunner {
   CommandRunner(CommandHandler handler, std::shared_ptr<CommandRecord> record);
 
   void start();
-  /// Carries out what waits.
+  /// Executes waiting commands, then stops.
   void stop() { thread_.stop(); }
 
   /// `on_result` is called before the answer, on the runner's thread, unless the command was
-  /// refused because of too many.
+  /// refused as busy.
   void run(const Command& command, const ExchangePtr& exchange, OnResult on_result);
 
   std::uint64_t done() const { return done_; }
@@ -54,7 +54,7 @@ class CommandRunner {
 
   const CommandHandler handler_;
   const std::shared_ptr<CommandRecord> record_;
-  std::uint64_t number_ = 0;  ///< of the newest command; the thread's
+  std::uint64_t number_ = 0;  ///< number of the newest command; used by the thread only
   std::mutex mutex_;
   std::deque<Waiting> waiting_;  ///< under mutex_
   std::atomic<std::uint64_t> done_{0};

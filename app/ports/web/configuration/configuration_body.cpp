@@ -15,7 +15,7 @@ bool is_known(const std::string& member) {
          member == kSecondsMember.name;
 }
 
-/// Absent: nothing is compared.
+/// Reads based_on; if absent, versions are not compared.
 Result<ConfigurationFiles::Basis> basis_of(const nlohmann::json& sent) {
   ConfigurationFiles::Basis basis;
   const auto member = sent.find(kBasedOnMember.name);
@@ -39,7 +39,8 @@ Result<int> seconds_of(const nlohmann::json& sent) {
   const bool is_right =
       seconds->is_number_integer() && *seconds >= kShortestTrial && *seconds <= kLongestTrial;
   if (is_right) return seconds->get<int>();
-  // Not quoted: what was sent may be long, and nested so deeply that writing it ends the process.
+  // The value is not quoted, because it may be long, and nested so deeply that writing it would
+  // crash the process.
   return fail("seconds must be a whole number from " + std::to_string(kShortestTrial) + " to " +
               std::to_string(kLongestTrial));
 }

@@ -9,7 +9,7 @@
 
 namespace orbwatch::app::web {
 
-/// A new configuration as it is sent.
+/// A new configuration as sent.
 struct ConfigurationBody {
   ConfigurationFiles::Edit edit;
   int seconds = kUsualTrial;
@@ -26,13 +26,12 @@ inline constexpr BodyMember kSecondsMember{
     "seconds", "Time until the trial is reverted unless it is confirmed, 10 to 3600; default: 60",
     false, BodyType::Whole};
 
-/// {"files": {"rig.toml": "..."}, "based_on": {"rig.toml": "0a1b2c3d"}, "seconds": 60}. Errors: it
-/// is none; a member is missing, too many or of another kind; the seconds are out of range.
+/// {"files": {"rig.toml": "..."}, "based_on": {"rig.toml": "0a1b2c3d"}, "seconds": 60}. Errors: not
+/// such an object; a member is missing, unknown or of another type; the seconds are out of range.
 /// Reentrant.
 Result<ConfigurationBody> parse_configuration(std::string_view body);
 
-/// What kSecondsMember says of an object that was sent. Errors: as parse_configuration().
-/// Reentrant.
+/// Value of kSecondsMember in a sent object. Errors: those of parse_configuration(). Reentrant.
 Result<int> seconds_of(const nlohmann::json& sent);
 
 }  // namespace orbwatch::app::web

@@ -13,17 +13,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of a difference in the audit, which keeps the newest megabyte.
+/// Longest diff stored in the audit, in bytes.
 constexpr std::size_t kMostNoted = 4096;
 /// Entries of the audit among which the last change of a file is searched.
 constexpr std::size_t kMostSearched = 1000;
 
-/// Bytes that are no UTF-8 have no place in JSON: they are replaced.
+/// Writes JSON, in which invalid UTF-8 is replaced.
 Response answer(const Json& json) {
   return json_response(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// A text that JSON would change is not to be sent back.
+/// Checks for UTF-8, because a text that JSON would change must not be sent back.
 bool is_utf8(const std::string& text) {
   try {
     return !Json(text).dump().empty();
@@ -47,7 +47,7 @@ void add(Json& list, const ConfigurationFiles::Texts& texts,
   }
 }
 
-/// The lines of one side of a difference, "-" or "+", and what has no side.
+/// Lines of one side of a difference, "-" or "+", and lines without a side.
 std::string side_of(const std::string& difference, char side) {
   const char other = side == '+' ? '-' : '+';
   std::istringstream in(difference);
@@ -59,7 +59,7 @@ std::string side_of(const std::string& difference, char side) {
   return text.substr(0, kMostNoted);
 }
 
-/// Order of two moments in ISO 8601, to the second.
+/// Compares two moments in ISO 8601, to the second.
 bool is_before(std::string_view moment, std::string_view other) {
   constexpr std::size_t kToTheSecond = std::string_view("2026-11-21T20:57:46").size();
   return moment.substr(0, kToTheSecond) < other.substr(0, kToTheSecond);
@@ -67,7 +67,7 @@ bool is_before(std::string_view moment, std::string_view other) {
 
 }  // namespace
 
-/// A request to change something, with what the audit is to say.
+/// A request for a change, with its values for the audit.
 struct ConfigurationDesk::Sent {
   Caller caller;
   ConfigurationBody body{};
@@ -137,7 +137,7 @@ Route ConfigurationDesk::changing(const char* path, const char* description,
   return route;
 }
 
-/// Every caller here has a role.
+/// Client in the queues; every caller here has a role.
 SlowWork::Asker ConfigurationDesk::asker(const ExchangePtr& exchange) const {
   return {true, access_.caller(credentials_of(exchange->request())).name};
 }
@@ -179,7 +179,8 @@ Response ConfigurationDesk::show() const {
                  {"trial", std::move(trial)}});
 }
 
-/// Error: another configuration file, which is the administrator's.
+/// Checks the rights. Error: the configuration file itself is changed, which requires an
+/// administrator.
 Result<> ConfigurationDesk::permit(const Sent& sent) const {
   if (sent.caller.role >= Role::Administrator) return {};
   const auto state = files_->read();
@@ -194,8 +195,8 @@ Result<> ConfigurationDesk::permit(const Sent& sent) const {
               "modules run");
 }
 
-/// The newest confirmation on the page that wrote the file since its change began, by its user;
-/// else the account on the board.
+/// User of the newest confirmation on the page that wrote the file since its change began;
+/// otherwise the account on the board.
 std::string ConfigurationDesk::changer_of(const std::string& name,
                                           const ConfigurationFiles::Version& now) const {
   const Json audit = Json::parse(audit_.newest(kMostSearched), nullptr, false);
@@ -213,7 +214,8 @@ std::string ConfigurationDesk::changer_of(const std::string& name,
   return who.empty() ? now.account + " (account on the board)" : who;
 }
 
-/// Error: a file is not what the new texts were made of; their change would remove the other one.
+/// Error: a file differs from the version on which the new texts are based, so that their change
+/// would overwrite another.
 Result<> ConfigurationDesk::check_basis(const Sent& sent) const {
   if (sent.body.edit.based_on.empty()) return {};
   const auto state = files_->read();
@@ -257,7 +259,7 @@ Response ConfigurationDesk::try_out(Sent& sent) {
   return answer(json);
 }
 
-/// The text with the changes that were sent is what is sent.
+/// Replaces the sent changes by the text that results from them.
 Result<> ConfigurationDesk::apply_changes(Sent& sent) const {
   return files_->with_changed_recipe(sent.recipe.recipe, sent.recipe.change)
       .map([&](ConfigurationFiles::Edit edit) {

@@ -13,13 +13,13 @@
 
 namespace orbwatch::app::web {
 
-/// The routes by which the files of the configuration are read, checked, tried out and confirmed,
-/// and single limits and regions of a recipe within its file.
-/// The configuration file itself says where users are kept and which camera modules run: another
-/// one needs the administrator. Thread rule: start and stop by one owner; the routes on any thread.
+/// Routes that read, check, try out and confirm the files of the configuration, and single limits
+/// and regions of a recipe within its file. The configuration file itself determines where users
+/// are kept and which camera modules run: changing it needs an administrator. Thread rule: start
+/// and stop by one owner; the routes on any thread.
 class ConfigurationDesk {
  public:
-  /// `files` null: there are no routes. `access` and `audit` outlive it.
+  /// `files` null: there are no routes. `access` and `audit` outlive the desk.
   ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, Access& access, Audit& audit);
 
   void start() { work_.start(); }
@@ -32,7 +32,7 @@ class ConfigurationDesk {
  private:
   struct Sent;
   using Handler = Response (ConfigurationDesk::*)(Sent&);
-  /// Takes a request's body into what was sent.
+  /// Parses a request's body into `sent`.
   using Read = Result<> (*)(std::string_view body, Sent& sent);
 
   Route changing(const char* path, const char* description, std::vector<BodyMember> body, Read read,

@@ -21,7 +21,7 @@ constexpr const char* kRecipeForm =
 
 tl::unexpected<Error> wrong(const std::string& what) { return fail(what + ": " + kRecipeForm); }
 
-/// An object whose members are among these.
+/// Returns whether `object` is an object whose members are among these.
 bool is_of(const json& object, std::initializer_list<std::string_view> names) {
   return object.is_object() && std::ranges::all_of(object.items(), [&](const auto& item) {
            return std::ranges::find(names, std::string_view(item.key())) != names.end();
@@ -36,7 +36,7 @@ bool has_number(const json& object, const char* name) {
   return object.contains(name) && object[name].is_number();
 }
 
-/// From 0 on.
+/// Returns whether a member is a whole number from 0 on.
 bool has_count(const json& object, const char* name) {
   return object.contains(name) && object[name].is_number_unsigned();
 }

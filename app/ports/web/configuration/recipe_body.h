@@ -9,9 +9,9 @@
 
 namespace orbwatch::app::web {
 
-/// Changes of a recipe as they are sent.
+/// Changes of a recipe as sent.
 struct RecipeBody {
-  int recipe = 0;  ///< its number
+  int recipe = 0;  ///< number of the recipe
   RecipeChange change;
   int seconds = kUsualTrial;
 };
@@ -31,9 +31,9 @@ inline constexpr BodyMember kRegionsMember{
     "alarms",
     false, BodyType::List};
 
-/// {"recipe": 1, "limits": [...], "regions": [...], "seconds": 60}, of which one list may be
-/// missing, as may the seconds. Errors: it is none; a member is missing, too many or of another
-/// kind; numbers out of range. Reentrant.
+/// {"recipe": 1, "limits": [...], "regions": [...], "seconds": 60}, of which one list and the
+/// seconds are optional. Errors: not such an object; a member is missing, unknown or of another
+/// type; numbers out of range. Reentrant.
 Result<RecipeBody> parse_recipe_change(std::string_view body);
 
 }  // namespace orbwatch::app::web

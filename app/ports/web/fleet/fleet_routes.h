@@ -10,7 +10,7 @@
 namespace orbwatch::app::web {
 
 /// `{"appliances": [{"id": ..., "name": ..., "page": ...}, ...], "turned_away": 0, "refused": 0,
-/// "missing": null}`. `fleet` null: it says what is missing, DDS. Reentrant.
+/// "missing": null}`. `fleet` null: `missing` states that DDS is needed. Reentrant.
 std::string fleet_json(Fleet* fleet, hal::TimePoint now);
 
 /// The routes of all appliances of the DDS domain. `fleet` null: DDS is not enabled.

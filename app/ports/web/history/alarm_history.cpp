@@ -13,7 +13,7 @@ void AlarmHistory::accept(const AlarmNotice& notice) {
 
 std::vector<AlarmHistory::Entry> AlarmHistory::newest(std::size_t most) const {
   most = std::min(most, kMost);
-  // Has its memory before the lock, on which the pipeline's thread would wait for it.
+  // Allocated before locking, so that the pipeline's thread does not wait for it.
   std::vector<Entry> entries;
   entries.reserve(most);
   const std::lock_guard lock(mutex_);

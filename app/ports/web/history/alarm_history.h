@@ -12,8 +12,8 @@
 
 namespace orbwatch::app::web {
 
-/// What happened to alarms, the newest events. Has its memory from the beginning. Thread-safe;
-/// accept() waits for a copy of them at most.
+/// The newest events of alarms. Memory is allocated at construction. Thread-safe; accept() waits at
+/// most for a copy of the events.
 class AlarmHistory {
  public:
   static constexpr std::size_t kMost = 500;
@@ -25,18 +25,18 @@ class AlarmHistory {
 
   AlarmHistory() : ring_(kMost) {}
 
-  /// For the pipeline's thread: allocates nothing.
+  /// Adds an event; for the pipeline's thread, allocates nothing.
   void accept(const AlarmNotice& notice);
 
-  /// At most so many, oldest first.
+  /// The newest events, at most `most`, oldest first.
   std::vector<Entry> newest(std::size_t most) const;
 
-  /// Since the start, also those that are forgotten.
+  /// Number of events since the start, including dropped ones.
   std::uint64_t count() const { return count_; }
 
  private:
   mutable hal::PriorityMutex mutex_;
-  std::vector<Entry> ring_;  ///< under mutex_; number n at n % kMost, from 0
+  std::vector<Entry> ring_;  ///< guarded by mutex_; number n at n % kMost, from 0
   std::atomic<std::uint64_t> count_{0};
 };
 

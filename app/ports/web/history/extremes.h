@@ -13,12 +13,12 @@
 namespace orbwatch::app::web {
 
 /// The lowest and the highest value of a figure since a moment, as precise as a chart needs them;
-/// NaN: it was not measured.
+/// NaN: not measured.
 struct Extremes {
   float low = std::numeric_limits<float>::quiet_NaN();
   float high = std::numeric_limits<float>::quiet_NaN();
 
-  /// One that is NaN is passed over.
+  /// Adds a value; NaN is ignored.
   void add(double value) {
     const auto rounded = static_cast<float>(value);
     low = std::fmin(low, rounded);
@@ -26,7 +26,7 @@ struct Extremes {
   }
 };
 
-/// How many fields a part of the status has.
+/// Number of fields of a part of the status.
 template <class Part>
 constexpr std::size_t field_count() {
   std::size_t count = 0;
@@ -34,7 +34,7 @@ constexpr std::size_t field_count() {
   return count;
 }
 
-/// Of each field of a part, by its place.
+/// Extremes of each field of a part, by its place.
 template <class Part>
 struct PartExtremes : std::array<Extremes, field_count<Part>()> {
   void add(const Part& part) {
@@ -43,17 +43,17 @@ struct PartExtremes : std::array<Extremes, field_count<Part>()> {
   }
 };
 
-/// Of all regions and of what is watched of all cameras, over any number of statuses. Of fixed
-/// size, and add() allocates nothing: it is for the frame path.
+/// Extremes of all regions and of the watch figures of all cameras, over any number of statuses.
+/// The size is fixed and add() allocates nothing, for the frame path.
 struct StatusExtremes {
-  std::uint16_t recipe = 0;  ///< that the regions belong to
+  std::uint16_t recipe = 0;  ///< recipe of the regions
   std::size_t region_count = 0;
   std::size_t camera_count = 0;
   std::array<PartExtremes<RegionStatus>, signals::kMaxRegions> regions;
   std::array<PartExtremes<CameraWatchStatus>, kMaxCameras> cameras;
 
   void add(const Status& status) {
-    // What another recipe measured would be taken for its own.
+    // Values of another recipe must not be mixed in.
     if (status.recipe != recipe) regions = {};
     recipe = status.recipe;
     region_count = std::min(status.region_count, regions.size());

@@ -8,7 +8,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// By place among the fields of a part.
+/// Place of a figure among the fields of a part.
 struct FigurePlace {
   std::size_t index;
   std::string_view unit;
@@ -60,7 +60,7 @@ void FigureHistory::advance(hal::TimePoint now) {
   end_ += kStep * over;
 }
 
-/// Without a status it is not known what there is.
+/// Adapts the tracks to the parts seen; without a status nothing is known about them.
 void FigureHistory::follow(const StatusExtremes& seen) {
   if (seen.region_count + seen.camera_count == 0) return;
   std::vector<Track> next;

@@ -14,10 +14,10 @@
 
 namespace orbwatch::app::web {
 
-/// The last ten minutes of every figure of regions, and of what is watched of cameras: its extremes
-/// in each half second. Its memory is taken when a region or a camera is seen first, and does not
-/// grow after that. When the recipe changes, regions that it does not have are forgotten, and those
-/// that it has go on. Thread-safe; accept() waits for a copy of a few kilobytes at most.
+/// The last ten minutes of every figure of regions, and of the watch figures of cameras: extremes
+/// of each half second. Memory is allocated when a region or a camera is first seen, and does not
+/// grow after that. When the recipe changes, regions that it does not have are dropped, and the
+/// others continue. Thread-safe; accept() waits at most for a copy of a few kilobytes.
 class FigureHistory {
  public:
   static constexpr std::chrono::milliseconds kStep{500};
@@ -27,23 +27,23 @@ class FigureHistory {
   struct Series {
     std::string_view unit;
     std::vector<Extremes> steps;
-    hal::TimePoint end;  ///< of the newest step; the epoch: there is none
+    hal::TimePoint end;  ///< end of the newest step; the epoch: none
   };
 
   explicit FigureHistory(StatusNames names) : names_(std::move(names)) {}
 
-  /// For the pipeline's thread: allocates nothing.
+  /// Adds a status; for the pipeline's thread, allocates nothing.
   void accept(const Status& status);
 
-  /// Ends each step that is over by `now`. Those that nobody ended in time are not measured, but
-  /// for the first one, which has all since the last call. By one thread.
+  /// Ends each step that is over by `now`. If several steps end at once, the first one gets all
+  /// values since the last call and the others are not measured. On one thread.
   void advance(hal::TimePoint now);
 
-  /// Of the component of this kind, "region" or "camera", and name; empty while it is not seen.
-  /// Nullopt: there is no such component or figure.
+  /// Series of the component of this kind, "region" or "camera", and name; empty while it has not
+  /// been seen. Nullopt: unknown component or figure.
   std::optional<Series> series(const Component& component, std::string_view figure) const;
 
-  /// Those that there are.
+  /// The components with a history.
   std::vector<Component> components() const;
 
  private:
@@ -59,13 +59,14 @@ class FigureHistory {
   void end_step(const StatusExtremes& seen);
 
   const StatusNames names_;
-  mutable hal::PriorityMutex adding_;  ///< of the open step
+  mutable hal::PriorityMutex adding_;  ///< guards the open step
   StatusExtremes open_;
-  mutable std::mutex reading_;  ///< of what follows; the pipeline's thread never locks it
-  std::vector<Track> tracks_;   ///< regions, then cameras
-  std::size_t next_ = 0;        ///< place of the next step
-  std::size_t count_ = 0;       ///< of steps
-  hal::TimePoint end_;          ///< of the newest step, or the beginning of the first
+  /// Guards the following members; the pipeline's thread never locks it.
+  mutable std::mutex reading_;
+  std::vector<Track> tracks_;  ///< regions, then cameras
+  std::size_t next_ = 0;       ///< index of the next step
+  std::size_t count_ = 0;      ///< number of steps
+  hal::TimePoint end_;         ///< end of the newest step, or the beginning of the first
 };
 
 }  // namespace orbwatch::app::web

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kUsualEvents = 100;
 constexpr QueryArgument kEvents{"events", "Limit of entries, up to 500; default: 100"};
 
-/// Nullopt: neither or both are named.
+/// Component named by the request; nullopt: neither or both are named.
 std::optional<Component> component_of(const Request& request) {
   const std::string *region = request.argument("region"), *camera = request.argument("camera");
   if (!region == !camera) return std::nullopt;

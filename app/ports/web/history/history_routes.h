@@ -10,8 +10,8 @@
 
 namespace orbwatch::app::web {
 
-/// Keeps what was measured and what happened to alarms, and serves it. Thread rule: accept on the
-/// pipeline's thread, advance on one, the rest on any.
+/// Keeps and serves the history of figures and of alarms. Thread rule: accept on the pipeline's
+/// thread, advance on one thread, everything else on any thread.
 class HistoryRoutes {
  public:
   HistoryRoutes(const StatusNames& names, const std::vector<MeasuredRecipe>& recipes)

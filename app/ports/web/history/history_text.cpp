@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Without the digits that a double would show beyond the precision of `value`.
+/// Omits digits beyond the precision of `value`.
 Json short_json(float value) {
   if (!std::isfinite(value)) return nullptr;
   std::array<char, 32> text{};
@@ -47,7 +47,7 @@ std::optional<double> reached_limit(const signals::AlarmLimits& limits, signals:
   return std::nullopt;
 }
 
-/// Null of a recipe that is not known.
+/// Limit of the alarm's level; null for an unknown recipe.
 Json limit_json(const AlarmNotice& notice, std::span<const MeasuredRecipe> recipes) {
   const auto recipe = std::ranges::find(recipes, notice.recipe, &MeasuredRecipe::number);
   if (recipe == recipes.end() || notice.event.alarm >= recipe->alarms.size()) return nullptr;

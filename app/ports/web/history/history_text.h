@@ -7,16 +7,16 @@
 #include "app/ports/web/history/alarm_history.h"
 #include "app/ports/web/history/figure_history.h"
 
-/// What was, as JSON. All reentrant.
+/// Histories as JSON. All reentrant.
 namespace orbwatch::app::web {
 
 /// {"unit", "step": s, "age": s since the end of the newest step or null, "low": [...], "high":
 /// [...]}, oldest first; null: not measured in that step.
 std::string series_json(const FigureHistory::Series& series, hal::TimePoint now);
 
-/// {"alarms": [...]}: of each event its number, time (UTC), the alarm's name, the readings of
-/// app/model/alarm_notice.h, the limit of its level and who acknowledged it; null where there is
-/// none.
+/// {"alarms": [...]}: for each event its number, time (UTC), the alarm's name, the readings of
+/// app/model/alarm_notice.h, the limit of its level and the user who acknowledged it; null where
+/// there is none.
 std::string alarm_events_json(std::span<const AlarmHistory::Entry> entries,
                               const StatusNames& names, std::span<const MeasuredRecipe> recipes);
 
