@@ -178,7 +178,7 @@ void ModbusSink::accept(const Status& status) {
   const auto now = hal::Clock::now();
   const auto utc = hal::to_utc(status.stamp).time_since_epoch();
   const std::lock_guard lock(mutex_);
-  // Once per frame set: each conversion of the clocks differs by a microsecond or so.
+  // Converted once per frame set, because conversions of the clocks differ by about a microsecond.
   if (status.frame_set != newest_.status.frame_set || status.stamp != newest_.status.stamp) {
     newest_.utc =
         status.frame_set == 0 ? microseconds(0) : std::chrono::duration_cast<microseconds>(utc);

@@ -60,7 +60,7 @@ Result<ServerCertificate> Listeners::certificate() const {
              : named_certificate(settings_, now_for(Dates::Checked));
 }
 
-/// A port that the kernel chose stays.
+/// Opens HTTPS again on the same port, even if the kernel chose it.
 Result<> Listeners::open_https(ServerCertificate certificate) {
   const int chosen = https_port_;
   auto server = Server::open(settings_,
@@ -93,7 +93,8 @@ void Listeners::watch() {
   if (certificate_ && is_due(*certificate_, utc_now(), clock_state())) renew();
 }
 
-/// What fails is tried again, since the old one stays due. Without a new one it is shown.
+/// Replaces a due certificate. A failure is retried, because the old one stays due and is presented
+/// until then.
 void Listeners::renew() {
   if (hal::Clock::now() < next_renewal_) return;
   next_renewal_ = hal::Clock::now() + kRenewalPause;

@@ -16,28 +16,28 @@
 
 namespace orbwatch::app::web {
 
-/// The servers of HTTP and HTTPS. Over HTTP only this computer and trusted proxies are served;
-/// where there is HTTPS others are redirected to it. Thread-safe; what is called by a server calls
-/// only ports and certificate_days.
+/// Servers of HTTP and HTTPS. HTTP serves only this computer and trusted proxies; other clients are
+/// redirected to HTTPS if it is enabled. Thread-safe; handlers called by a server may call only
+/// ports and certificate_days.
 class Listeners {
  public:
-  /// `settings` and `counts` outlive it.
+  /// `settings` and `counts` outlive the listeners.
   Listeners(const WebSettings& settings, std::filesystem::path state_folder,
             Server::Handler handler, ServerCounts& counts);
 
-  /// Opens what is not open yet: HTTP does not wait for a certificate. Errors: as Server::open(),
-  /// named_certificate(), self_made_certificate().
+  /// Opens servers that are not open yet; HTTP does not wait for a certificate. Errors: those of
+  /// Server::open(), named_certificate() and self_made_certificate().
   Result<> open();
   /// Ends all connections.
   void close();
 
-  /// Ends connections that are overdue, and replaces a self-made certificate before it ends, which
-  /// ends those of HTTPS; called several times a second.
+  /// Ends connections that are overdue, and replaces a self-made certificate before it expires,
+  /// which closes HTTPS connections; to be called several times a second.
   void watch();
 
   int port() const { return port_; }
   int https_port() const { return https_port_; }  ///< 0: not open
-  /// Until the certificate ends, negative afterwards; NaN: there is none.
+  /// Days until the certificate expires, negative afterwards; NaN: no certificate.
   double certificate_days() const;
 
  private:
@@ -52,13 +52,13 @@ class Listeners {
   const Server::Handler handler_;
   ServerCounts& counts_;
   std::atomic<int> port_{0}, https_port_{0};
-  std::atomic<std::int64_t> certificate_ends_{0};  ///< s since 1970; 0: there is none
+  std::atomic<std::int64_t> certificate_ends_{0};  ///< s since 1970; 0: none
 
-  std::mutex mutex_;  ///< of what follows, also while a server starts or stops
+  std::mutex mutex_;  ///< guards the following members, also while a server starts or stops
   std::vector<std::unique_ptr<Server>> http_;
   std::unique_ptr<Server> https_;
-  std::optional<ServerCertificate> certificate_;  ///< that https_ shows, or showed last
-  hal::TimePoint next_renewal_;                   ///< not tried before
+  std::optional<ServerCertificate> certificate_;  ///< certificate of https_, present or last
+  hal::TimePoint next_renewal_;                   ///< earliest time of the next attempt
 };
 
 }  // namespace orbwatch::app::web

@@ -7,12 +7,12 @@
 
 namespace orbwatch::app::web {
 
-/// A number of a request's query; `otherwise` when it is not there. Error: it is no number within
-/// [lowest, highest], in words for who asked. Reentrant.
+/// Number in a request's query; `otherwise` if it is absent. Error: not a number within [lowest,
+/// highest], with a text for the client. Reentrant.
 Result<double> number_of(const Request& request, std::string_view name, double otherwise,
                          double lowest, double highest);
 
-/// The same, and it must be there.
+/// Required number in a request's query.
 Result<double> number_of(const Request& request, std::string_view name, double lowest,
                          double highest);
 

@@ -15,14 +15,15 @@ bool is_json(const std::string* type) {
   return equal_in_any_case(essence, kJson);
 }
 
-/// A host and port without the one that the scheme implies.
+/// Removes the port that the scheme implies.
 std::string_view without_port(std::string_view authority, std::string_view implied) {
   if (authority.ends_with(implied)) authority.remove_suffix(implied.size());
   return authority;
 }
 
-/// True: an Origin header is our own page's. Over HTTP a page of the same host over HTTPS is: a
-/// proxy may end TLS. Over HTTPS one over HTTP is not: somebody on the way may have made it.
+/// Returns whether an Origin header is that of our own page. Over HTTP, the same host over HTTPS is
+/// accepted, because a proxy may end TLS. Over HTTPS, an origin over HTTP is not accepted, because
+/// an attacker may have forged it.
 bool is_own_origin(std::string_view origin, const Request& request) {
   constexpr std::string_view kHttp = "http://", kHttps = "https://";
   const bool is_https = origin.starts_with(kHttps);
@@ -33,8 +34,8 @@ bool is_own_origin(std::string_view origin, const Request& request) {
          equal_in_any_case(without_port(origin, port), without_port(request.host, port));
 }
 
-/// Judges by the headers in which browsers name the page that caused a request; other clients send
-/// none. No script can set Sec-Fetch-Site, and no proxy's change of Host matters to it.
+/// Checks the headers in which browsers name the page that caused a request; other clients send
+/// none. Scripts cannot set Sec-Fetch-Site, and it is independent of a proxy's change of Host.
 bool is_from_foreign_page(const Request& request) {
   if (const std::string* site = request.header("Sec-Fetch-Site")) {
     return *site != "same-origin" && *site != "none";
@@ -43,7 +44,7 @@ bool is_from_foreign_page(const Request& request) {
   return origin && !is_own_origin(*origin, request);
 }
 
-/// Nullopt: the caller may do this.
+/// Refusal for the caller's role; nullopt: permitted.
 std::optional<Response> refusal_of_role(const Route& route, const Caller& caller) {
   if (caller.role >= route.role) return std::nullopt;
   const std::string needs = route.method + " " + route.path + " needs the role " +
@@ -62,9 +63,9 @@ std::optional<Response> refusal_of_role(const Route& route, const Caller& caller
   return response;
 }
 
-/// Why a request that would change something is refused, whoever may do it.
+/// Refusal of a request that would change something, independent of its role.
 std::optional<Response> refusal_of_post(const Request& request) {
-  // No page of another host can make a browser send this header.
+  // A page of another host cannot make a browser send this header.
   if (request.cookie(session_cookie(request)) && !request.header(kOwnPageHeader)) {
     return error_response(403, "with a session's cookie the header " + std::string(kOwnPageHeader) +
                                    " is required, with any value");
@@ -75,7 +76,8 @@ std::optional<Response> refusal_of_post(const Request& request) {
   return std::nullopt;
 }
 
-/// A foreign page is refused first: its request is not the will of whoever is logged in.
+/// Refusal of a request. A foreign page is refused first, because the logged-in user did not intend
+/// its request.
 std::optional<Response> refusal_of(const Request& request, const Route& route,
                                    const CallerOf& caller_of) {
   const bool changes = route.method == "POST";

@@ -13,10 +13,10 @@
 
 namespace orbwatch::app::web {
 
-/// Whether a path takes ?view=NAME.
+/// Use of ?view=NAME by a path.
 enum class ViewArgument { None, One, Any };
 
-/// A path's ?name=VALUE, besides a view.
+/// Query argument ?name=VALUE of a path, besides a view.
 struct QueryArgument {
   std::string_view name;
   std::string_view description;
@@ -24,7 +24,7 @@ struct QueryArgument {
   bool is_number = true;
 };
 
-/// What a member of a request's body is: a text, texts by name, a whole number, or a list.
+/// Type of a member of a request's body: a text, texts by name, a whole number, or a list.
 enum class BodyType { Text, Texts, Whole, List };
 
 /// A member of the JSON object that is the body of a request.
@@ -35,24 +35,25 @@ struct BodyMember {
   BodyType type = BodyType::Text;
 };
 
-/// What is served under one path, and to whom.
+/// Route: a path with its method, role, arguments and handler.
 struct Route {
   std::string method;  ///< GET, which includes HEAD, or POST
   std::string path;
-  Role role = Role::Administrator;  ///< the least that it is served to
+  Role role = Role::Administrator;  ///< least role that is served
   std::string description;
-  std::string type;  ///< of its answer
+  std::string type;  ///< media type of the answer
   std::function<void(const ExchangePtr&)> serve;
   ViewArgument view = ViewArgument::None;
-  const CommandInfo* command = nullptr;  ///< the command that it carries out
-  std::vector<BodyMember> body{};        ///< of a route that is no command
+  const CommandInfo* command = nullptr;  ///< command executed by the route
+  std::vector<BodyMember> body{};        ///< body of a route that is not a command
   std::vector<QueryArgument> query{};
-  bool is_page = false;  ///< a file of the page, which programs do not ask for
-  /// True: a token counts as the password, too, for programs that send a name and a password only.
+  bool is_page = false;  ///< a file of the page, not part of the API
+  /// Accepts a token as the password, for programs that can send only a name and a password.
   bool takes_password = false;
 };
 
-/// Says who sent a request for a route, or why that is not judged; never waits.
+/// Returns the sender of a request for a route, or the response if it cannot be determined; never
+/// waits.
 using CallerOf = std::function<tl::expected<Caller, Response>(const Request&, const Route&)>;
 
 /// Passes a request to the route of its method and path, compared exactly; another method is

@@ -32,53 +32,57 @@ struct WebSettings {
   static constexpr std::string_view kName = "web", kText = "Web page and HTTP interface";
 
   bool enabled = false;
-  /// The numeric IPv4 or IPv6 address to listen on; only this computer by default.
+  /// Numeric IPv4 or IPv6 address to listen on; default: this computer only.
   std::string address = "127.0.0.1";
-  int port = 8080;                  ///< of HTTP, only for this computer; 0: any free port
+  int port = 8080;                  ///< HTTP port, for this computer only; 0: any free port
   std::optional<int> https_port{};  ///< 0: any free port; see https_port_of()
-  /// In PEM, with those of its issuers behind it; empty: made and kept by the appliance itself.
+  /// Certificate in PEM, followed by those of its issuers; empty: made and kept by the appliance
+  /// itself.
   std::filesystem::path certificate{};
   std::filesystem::path key{};
-  /// Host names of this appliance. A request under any other name is refused, so that no foreign
-  /// page reaches it by a name of its own (DNS rebinding). Numeric addresses and localhost are
-  /// always right.
+  /// Host names of this appliance. A request under any other name is refused, so that a foreign
+  /// page cannot reach it by the page's own name (DNS rebinding). Numeric addresses and localhost
+  /// are always accepted.
   std::vector<std::string> names;
-  /// Addresses and networks of reverse proxies whose Forwarded or X-Forwarded-* are believed: they
-  /// say who the client is.
+  /// Addresses and networks of reverse proxies whose Forwarded or X-Forwarded-* headers, which
+  /// state the client, are trusted.
   std::vector<std::string> trusted_proxies;
 
   int max_connections = 128;
   int max_connections_per_address = 16;
   int max_streams = 32;
   std::size_t max_body_bytes = 65536;
-  /// From the connection, or from the answer before, to the end of a request; and again for its
-  /// answer.
+  /// Limit from the connection, or from the previous answer, to the end of a request; and again for
+  /// its answer.
   std::chrono::milliseconds request_timeout{10000};
   JpegSettings jpeg;
 
-  /// Of a session that nobody uses; an open stream uses it.
+  /// Idle time after which a session ends; an open stream counts as use.
   std::chrono::seconds session_idle{60 * 60};
-  /// Of a session at most; then one logs in again.
+  /// Limit of a session's age; afterwards the user must log in again.
   std::chrono::seconds session_longest{12 * 60 * 60};
 
-  /// Without word from the pipeline, which promises ten a second; then it is not healthy.
+  /// Silence of the pipeline, which reports ten times a second, after which it counts as unhealthy.
   std::chrono::milliseconds status_timeout{2000};
 };
 
-/// HTTP's addresses: one of a single network does not reach this computer's own programs.
+/// Addresses for HTTP; an address in a single network is complemented by loopback for this
+/// computer's own programs.
 inline std::vector<std::string> http_addresses_of(const WebSettings& web) {
   if (hal::is_unspecified(web.address) || web::is_loopback(web.address)) return {web.address};
   return {web.address, web.address.find(':') == std::string::npos ? "127.0.0.1" : "::1"};
 }
 
-/// Nullopt: no HTTPS, and nobody is served but this computer and those behind trusted proxies.
+/// Port of HTTPS; nullopt: no HTTPS, and only this computer and clients behind trusted proxies are
+/// served.
 inline std::optional<int> https_port_of(const WebSettings& web) {
   constexpr int kHttpsPort = 8443;
   const bool is_needed = !web::is_loopback(web.address) || !web.certificate.empty();
   return web.https_port || !is_needed ? web.https_port : kHttpsPort;
 }
 
-/// A trusted proxy can claim any client's address.
+/// Checks trusted_proxies; every address is refused, because a trusted proxy can claim any client's
+/// address.
 template <class Visitor>
 void require_proxies(Visitor& v, const std::vector<std::string>& texts) {
   constexpr const char* kKey = "trusted_proxies";
@@ -140,7 +144,7 @@ void visit(Visitor& v, WebSettings& web) {
   v.table("jpeg", web.jpeg, "JPEG encoding of snapshots and streams");
 }
 
-/// Who may command over HTTP, in words; empty: nobody. Reentrant.
+/// Clients that may command over HTTP, in words; empty: none. Reentrant.
 inline std::string commanders(const WebSettings& settings) {
   if (!settings.enabled) return "";
   std::string where = "over HTTP from this host";

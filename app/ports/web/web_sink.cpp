@@ -29,13 +29,13 @@ double seconds_between(hal::TimePoint from, hal::TimePoint to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// A route for programs that can send a name and a password, and no other header of their own.
+/// Makes a route usable for programs that can send only a name and a password, and no other header.
 web::Route for_players(web::Route route) {
   route.takes_password = true;
   return route;
 }
 
-/// index.html is the root, too.
+/// Routes of the page's files; index.html is also the root.
 std::vector<web::Route> page_routes() {
   std::vector<web::Route> routes;
   routes.reserve(web::kPageFiles.size());
@@ -137,7 +137,7 @@ void WebSink::watch() {
   }
 }
 
-/// First what is being done, a restart for example, so that its answer is still sent.
+/// Stops work in progress first, for example a restart, so that its answer is still sent.
 void WebSink::stop() {
   is_running_ = false;
   thread_.stop();
@@ -170,7 +170,7 @@ PictureNeeds WebSink::needs(std::size_t view, hal::TimePoint stamp) {
   return needs;
 }
 
-/// One of each view waits, as many as there are threads are being compressed, and some are kept.
+/// One picture of each view waits, one per thread is being compressed, and some are kept.
 KeptViews WebSink::keeps() const { return {1, threads_->count() + web::RecentViews::kMost}; }
 
 void WebSink::accept(const ViewPtr& view) {
@@ -183,7 +183,7 @@ void WebSink::accept(const Status& status) {
   const auto utc = hal::to_utc(status.stamp);
   history_.accept(status);
   const std::lock_guard lock(mutex_);
-  // Once per frame set: each conversion of the clocks differs by a microsecond or so.
+  // Converted once per frame set, because conversions of the clocks differ by about a microsecond.
   if (status.frame_set != newest_.status.frame_set) newest_.utc = utc;
   newest_.status = status;
   newest_.received = now;
@@ -256,7 +256,7 @@ std::vector<web::Route> WebSink::make_routes() {
   return routes;
 }
 
-/// One for each of kCommands.
+/// One route for each of kCommands.
 std::vector<web::Route> WebSink::make_command_routes() {
   std::vector<web::Route> routes;
   routes.reserve(kCommands.size());
@@ -333,8 +333,7 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   exchange->answer(std::move(response));
 }
 
-/// Null: it has answered that there is no such view, and which there are. `name`: null when none
-/// was given.
+/// Finds a view; null: answered with the list of views. `name`: null if none was given.
 const web::ViewEncoder* WebSink::find_view(const std::string* name,
                                            const ExchangePtr& exchange) const {
   std::string refusal = name ? "unknown view" : "no view; pass ?view=NAME";
@@ -359,7 +358,7 @@ void WebSink::serve_stream(const ExchangePtr& exchange) {
                std::make_shared<web::MjpegStream>(view->feed(), stream_counts_));
 }
 
-/// Each view once, however often it is named.
+/// Serves each view once, however often it is named.
 void WebSink::serve_live(const ExchangePtr& exchange) {
   std::vector<web::LiveStream::Source> sources{{"", status_feed_}};
   for (const auto& [argument, name] : exchange->request().query) {

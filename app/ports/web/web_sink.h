@@ -33,15 +33,15 @@
 namespace orbwatch::app {
 
 /// Serves status, pictures and commands over HTTP: see README.md for the paths. Requests are
-/// answered on the server's threads, pictures compressed on shared ones; the pipeline only leaves a
-/// status and a picture behind. Thread rule: as Sink; port and statistics while it is started, on
-/// any thread.
+/// answered on the server's threads, pictures compressed on shared ones; the pipeline only stores a
+/// status and a picture. Thread rule: as Sink; port and statistics on any thread while it is
+/// started.
 class WebSink final : public Sink {
  public:
   WebSink(WebSettings settings, const WebContext& context);
   ~WebSink() override;
 
-  /// Does nothing when disabled or running. Errors: as Listeners::open(); it may be repeated.
+  /// Does nothing when disabled or running. Errors: those of Listeners::open(); it may be repeated.
   Result<> start() override;
   void stop() override;
   std::chrono::nanoseconds cpu_time() const override;
@@ -91,13 +91,14 @@ class WebSink final : public Sink {
 
   web::ViewList list_;
   web::PixelRoute pixels_;
-  std::vector<std::unique_ptr<web::ViewEncoder>> views_;  ///< by View::index
-  std::vector<bool> asked_;  ///< by view: the next picture is read; accept's thread
+  std::vector<std::unique_ptr<web::ViewEncoder>> views_;  ///< encoders by View::index
+  /// By view: the next picture has readers; used by accept()'s thread only.
+  std::vector<bool> asked_;
 
   mutable hal::PriorityMutex mutex_;
-  NewestStatus newest_;  ///< under mutex_
+  NewestStatus newest_;  ///< guarded by mutex_
 
-  /// The status as JSON for streams, made on thread_ while one is read.
+  /// Status as JSON for streams, made on thread_ while a stream reads it.
   const std::shared_ptr<web::Feed> status_feed_ = std::make_shared<web::Feed>();
 
   web::ServerCounts server_counts_;
@@ -117,7 +118,7 @@ class WebSink final : public Sink {
   const std::function<std::vector<InterfaceMetric>()> metrics_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
-  hal::Thread thread_;  ///< ends what is overdue, reports to streams, keeps history
+  hal::Thread thread_;  ///< ends overdue connections, reports to streams, keeps history
 };
 
 }  // namespace orbwatch::app

@@ -125,8 +125,8 @@ void Access::load(Cause cause) {
   users_ = std::move(now);
 }
 
-/// Resets the limits of users whose password was set at the board, so that they can log in at once,
-/// from anywhere.
+/// Resets the limits of names with a new password; if another process set it, at the board, also
+/// those of addresses, so that the user can log in at once, from anywhere.
 void Access::forgive_new_passwords(const Users& now, Cause cause) {
   if (cause == Cause::Start) return;
   for (const User& user : now.users) {

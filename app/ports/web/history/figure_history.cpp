@@ -60,7 +60,7 @@ void FigureHistory::advance(hal::TimePoint now) {
   end_ += kStep * over;
 }
 
-/// Adapts the tracks to the parts seen; without a status nothing is known about them.
+/// Adapts the tracks to the regions and cameras seen; keeps them if there was no status.
 void FigureHistory::follow(const StatusExtremes& seen) {
   if (seen.region_count + seen.camera_count == 0) return;
   std::vector<Track> next;

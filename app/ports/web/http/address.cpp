@@ -17,7 +17,7 @@ bool is_port(std::string_view text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// A name without the dot of the root at its end (RFC 1034, 3.1).
+/// Removes the root's dot at the end of a name (RFC 1034, 3.1).
 std::string_view without_root(std::string_view name) {
   if (name.ends_with('.')) name.remove_suffix(1);
   return name;
@@ -89,7 +89,7 @@ std::optional<std::string_view> host_in(std::string_view header) {
   const std::size_t end = is_bracketed ? bracket + 1 : std::min(header.find(':'), header.size());
   const std::string_view host = header.substr(0, end), rest = header.substr(end);
   if (!rest.empty() && (rest.front() != ':' || !is_port(rest.substr(1)))) return std::nullopt;
-  // What follows would not be seen by functions for C strings.
+  // Functions for C strings would ignore the part after a zero byte.
   if (host.find('\0') != std::string_view::npos) return std::nullopt;
   return host;
 }

@@ -16,7 +16,7 @@ bool has_gone(int socket) {
   return ::poll(&poll, 1, 0) > 0;
 }
 
-/// What is to be ended once no lock is held.
+/// Connections to end once no lock is held.
 struct Ends {
   std::vector<ExchangePtr> exchanges;
   std::vector<std::shared_ptr<StreamSender>> streams;
@@ -24,7 +24,8 @@ struct Ends {
   void add(const Connections::Connection& connection) {
     if (auto exchange = connection.exchange.lock()) exchanges.push_back(std::move(exchange));
     if (auto stream = connection.stream.lock()) {
-      ::shutdown(connection.socket, SHUT_RDWR);  // under the lock it is still this connection's
+      // safe under the lock: the socket is still this connection's
+      ::shutdown(connection.socket, SHUT_RDWR);
       streams.push_back(std::move(stream));
     }
   }
@@ -120,7 +121,8 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
       if (!is_overdue && may_go_on && !gone) continue;
       if (is_overdue) {
         ++overdue;
-        connection.deadline = hal::TimePoint::max();  // counted once, however late it is removed
+        // so that it is counted once, however late it is removed
+        connection.deadline = hal::TimePoint::max();
       }
       const bool waits_for_answer = !connection.exchange.expired();
       const bool asks_nothing = gone && had_gone && !connection.is_answering;
@@ -151,7 +153,7 @@ void Connections::end_all() {
       if (auto exchange = connection.exchange.lock()) unanswered.push_back(std::move(exchange));
     }
   }
-  // The library cannot end while one is suspended.
+  // The library cannot stop while a connection is suspended.
   for (const auto& exchange : unanswered) exchange->answer(Ends::no_answer());
 }
 

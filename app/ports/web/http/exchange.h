@@ -11,27 +11,27 @@ struct MHD_Connection;
 
 namespace orbwatch::app::web {
 
-/// A request and its one answer, which may come later and from any thread; meanwhile no thread
-/// waits. Thread-safe but for body and response_or_suspend.
+/// A request and its single answer, which may be given later and from any thread; no thread waits
+/// meanwhile. Thread-safe except body and response_or_suspend.
 class Exchange {
  public:
   explicit Exchange(Request request) : request_(std::move(request)) {}
 
   const Request& request() const { return request_; }
 
-  /// False: it was answered before, by the server's deadline for example.
+  /// Answers the request. False: it was answered before, for example by the server's deadline.
   bool answer(Response response);
   bool is_answered() const;
 
-  /// Marks that the request is about to take effect: no deadline answers in place of the result
-  /// any more, which must follow. False: it was answered, and the effect must not come.
+  /// Marks that the request is about to take effect: from then on no deadline replaces the result,
+  /// which must follow. False: it was answered already, and must not take effect.
   bool begin_effect();
-  /// Answers by the server's deadline, see answer(). False also once the effect has begun.
+  /// Answers at the server's deadline, see answer(). Also false once the effect has begun.
   bool give_up(Response response);
 
-  /// For the server: the body that has arrived.
+  /// The received body; for the server.
   std::string& body() { return request_.body; }
-  /// For the server: the answer, or nullopt and the connection is suspended until it comes.
+  /// The answer; nullopt: the connection is suspended until it is given. For the server.
   std::optional<Response> response_or_suspend(MHD_Connection* connection);
 
  private:

@@ -23,8 +23,8 @@ std::string_view trimmed(std::string_view text) {
 /// Rule for separators in quoted strings (RFC 9110, 5.6.4); X-Forwarded-* has no such strings.
 enum class Quotes { None, Hold };
 
-/// The parts between separators. Nullopt: a quoted string has no end, and what a proxy appended
-/// might be in it.
+/// Splits at separators. Nullopt: a quoted string has no end, so that it might contain text that a
+/// proxy appended.
 std::optional<std::vector<std::string_view>> split(std::string_view text, char separator,
                                                    Quotes quotes) {
   std::vector<std::string_view> parts;
@@ -55,7 +55,7 @@ std::string unquoted(std::string_view text) {
   return plain;
 }
 
-/// The elements of all lines of a header, as one list (RFC 9110, 5.3). Nullopt: as split().
+/// The elements of all lines of a header as one list (RFC 9110, 5.3). Nullopt: see split().
 std::optional<std::vector<std::string>> list_of(const Request& request, std::string_view name,
                                                 Quotes quotes) {
   std::vector<std::string> list;
@@ -101,14 +101,14 @@ std::optional<hal::HostAddress> node_address(const std::string& node) {
   return hal::parse_host(std::string(is_bracketed ? host->substr(1, host->size() - 2) : *host));
 }
 
-/// The client, and by how many places from the end of the list it is named.
+/// The client, and its distance from the end of the list.
 struct Client {
   std::string address;
   std::size_t place = 0;
 };
 
-/// Each proxy names at the end of the list whom it was asked by: the list is true from its end to
-/// the first address that is not trusted.
+/// Each proxy appends the address from which it received the request, so the list is reliable from
+/// its end to the first address that is not trusted.
 Client client_in(const std::vector<std::string>& nodes, const std::string& peer,
                  const std::vector<hal::Network>& trusted) {
   Client client{peer, 0};
@@ -121,13 +121,12 @@ Client client_in(const std::vector<std::string>& nodes, const std::string& peer,
   return client;
 }
 
-/// The value that stands beside the client's; of a shorter list the first one. Empty: none.
+/// The value at the client's place; the first one of a shorter list. Empty: none.
 std::string beside(const std::vector<std::string>& values, std::size_t place) {
   return values.empty() ? "" : values[values.size() - 1 - std::min(place, values.size() - 1)];
 }
 
-/// A path without "." and "..", which can stand in a cookie's attribute; without slashes at its
-/// end.
+/// Checks a path without "." and "..", usable as a cookie's attribute; removes slashes at its end.
 std::optional<std::string> path_prefix(std::string text) {
   while (text.ends_with('/')) text.pop_back();
   if (text.empty()) return text;

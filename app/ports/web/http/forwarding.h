@@ -7,21 +7,21 @@
 #include "hal/network.h"
 #include "proc/image/result.h"
 
-/// Requests that reverse proxies pass on. All reentrant.
+/// Requests forwarded by reverse proxies. All reentrant.
 namespace orbwatch::app::web {
 
-/// True: a header shows that a proxy passed the request on, whatever its value: Forwarded
-/// (RFC 7239), Via, X-Real-IP or any X-Forwarded-*.
+/// Returns whether a header, regardless of its value, shows that a proxy forwarded the request:
+/// Forwarded (RFC 7239), Via, X-Real-IP or any X-Forwarded-*.
 bool is_passed_on(const Values& headers);
 
-/// True: a connection's numeric address is in `trusted`.
+/// Returns whether a connection's numeric address is in `trusted`.
 bool is_trusted(const std::string& peer, const std::vector<hal::Network>& trusted);
 
-/// Sets the passage of a request that came from `peer`. From a trusted proxy also sets, as far as
-/// the headers say so, the client's address (the last one in X-Forwarded-For or Forwarded that is
-/// not trusted), host and prefix, and whether the client asked over HTTPS. Errors: Forwarded and
-/// X-Forwarded-For name different clients, so that the client may have sent one of them; Forwarded
-/// is malformed; the prefix is not a path.
+/// Sets the passage of a request. For a trusted proxy also sets, as far as the headers state them,
+/// the client's address (the last one in X-Forwarded-For or Forwarded that is not trusted), host
+/// and prefix, and whether the client used HTTPS. Errors: Forwarded and X-Forwarded-For name
+/// different clients, so that the client may have forged one of them; Forwarded is malformed; the
+/// prefix is not a path.
 Result<> take_forwarding(Request& request, const std::vector<hal::Network>& trusted);
 
 }  // namespace orbwatch::app::web

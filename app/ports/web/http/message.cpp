@@ -38,7 +38,7 @@ Response json_response(std::string text, int status) {
 }
 
 Response error_response(int status, const std::string& what) {
-  // What a client sent is quoted only where it is text.
+  // Invalid UTF-8 from clients is replaced in quotations.
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
   return json_response(nlohmann::ordered_json{{"error", what}}.dump(-1, ' ', false, kReplace),
                        status);

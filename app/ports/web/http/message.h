@@ -11,14 +11,14 @@
 
 namespace orbwatch::app::web {
 
-/// Names and values in the order in which they were sent.
+/// Names and values in the order sent.
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-/// The way of a request from its client. A proxy that is not trusted shows itself by its headers
-/// only, and nothing that they say is believed.
+/// Path of a request from its client. An untrusted proxy is detected by its headers, whose values
+/// are ignored.
 enum class Passage { Direct, UntrustedProxy, TrustedProxy };
 
-/// A request as it arrived, whole.
+/// A complete request as received.
 struct Request {
   std::string method;
   std::string target;  ///< as sent, with the query, in origin-form (RFC 9112, 3.2.1)
@@ -27,29 +27,30 @@ struct Request {
   Values headers;
   Values cookies;
   std::string body;
-  std::string peer;        ///< the client's numeric address, by a trusted proxy as that says
+  std::string peer;  ///< the client's numeric address, for a trusted proxy the one that it states
   bool is_secure = false;  ///< the client sent it over HTTPS
-  std::string host;        ///< that the client asked, with any port; empty: HTTP/1.0 named none
-  std::string prefix;      ///< the proxy's path of our root, as /cell4/orbwatch; empty: its root
+  std::string host;    ///< host requested by the client, with a port if any; empty: none (HTTP/1.0)
+  std::string prefix;  ///< path of our root at the proxy, such as /cell4/orbwatch; empty: its root
   Passage passage = Passage::Direct;
 
-  /// The first value of that name, compared exactly; null: none.
+  /// First value of this name, compared exactly; null: none.
   const std::string* argument(std::string_view name) const;
   const std::string* cookie(std::string_view name) const;
-  /// The first value of a header, whose name is compared in any case; null: none.
+  /// First value of a header, whose name is compared case-insensitively; null: none.
   const std::string* header(std::string_view name) const;
 };
 
-/// Bytes that several answers may share.
+/// Bytes that may be shared by several answers.
 using Bytes = std::shared_ptr<const std::string>;
 
-/// A body without an end. Thread rule: read and on_data by one thread at a time.
+/// A body without an end. Thread rule: read and on_data on one thread at a time.
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// `wake` is to be called when there is something to read again; any thread may call it.
+  /// Sets `wake`, to be called on any thread when there is data to read again.
   virtual void on_data(std::function<void()> wake) = 0;
-  /// Writes what there is to `out`, as much as fits; returns how much, 0: nothing yet. Never waits.
+  /// Writes available data to `out`, as much as fits; returns the number of bytes, 0: none yet.
+  /// Never waits.
   virtual std::size_t read(std::span<char> out) = 0;
 };
 
@@ -63,13 +64,13 @@ struct Response {
   std::string type{kJson};
   Bytes body;
   std::shared_ptr<Stream> stream;
-  Values headers;  ///< besides those that every answer has
-  /// Whether the client may still have the stream; asked again and again. Empty: always.
+  Values headers;  ///< in addition to those of every answer
+  /// Returns whether the client may still receive the stream; called repeatedly. Empty: always.
   std::function<bool()> may_go_on;
 };
 
 Response json_response(std::string text, int status = 200);
-/// {"error": what}.
+/// Response with the body {"error": what}.
 Response error_response(int status, const std::string& what);
 
 }  // namespace orbwatch::app::web

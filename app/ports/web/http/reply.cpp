@@ -6,11 +6,11 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// Of what libmicrohttpd reads from a stream at once.
+/// Largest block that libmicrohttpd reads from a stream at once.
 constexpr std::size_t kStreamBlock = 128 * 1024;
 
-/// Nothing is loaded from elsewhere, no script stands in a page, nobody frames one, and nothing is
-/// kept in a cache.
+/// Headers of every answer: no resources of other origins, no inline scripts, no framing, no
+/// caching.
 constexpr std::array<std::pair<const char*, const char*>, 9> kHeaders{
     {{"Content-Security-Policy",
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
@@ -24,7 +24,7 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kHeaders{
      {"Cache-Control", "no-store"},
      {"Server", "orbwatch"}}};
 
-/// Null if there is no memory for the headers.
+/// Adds headers; null: out of memory.
 Reply with_headers(Reply reply, const Response& response, const Values& more) {
   const auto add = [&reply](const char* name, const char* value) {
     return ::MHD_add_response_header(reply.get(), name, value) == MHD_YES;
@@ -63,7 +63,7 @@ Reply make_reply(const Response& response, const Values& more) {
         more);
   }
   auto owned = std::make_unique<Bytes>(response.body);
-  // The C API takes no const pointer, but reads only.
+  // The C API takes a non-const pointer, but only reads.
   Reply reply(::MHD_create_response_from_buffer_with_free_callback_cls(
       response.body->size(), const_cast<char*>(response.body->data()), release_bytes, owned.get()));
   if (reply) static_cast<void>(owned.release());
@@ -80,7 +80,8 @@ Reply make_reply(const Response& response, const Values& more, std::shared_ptr<S
     return nullptr;
   }
   static_cast<void>(owned.release());
-  // Chunks would be cut to the connection's small pool, and players of MJPEG expect none.
+  // Avoids chunks, which would be limited to the connection's small pool, and which MJPEG players
+  // do not expect.
   ::MHD_set_response_options(reply.get(), MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
   return with_headers(std::move(reply), response, more);
 }

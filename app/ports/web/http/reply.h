@@ -7,7 +7,7 @@
 #include "app/ports/web/http/message.h"
 #include "app/ports/web/http/stream_sender.h"
 
-/// Answers as libmicrohttpd wants them. Reentrant.
+/// Answers in the form of libmicrohttpd. Reentrant.
 namespace orbwatch::app::web {
 
 struct ReplyDeleter {
@@ -15,9 +15,9 @@ struct ReplyDeleter {
 };
 using Reply = std::unique_ptr<MHD_Response, ReplyDeleter>;
 
-/// An answer with its headers, `more` and those that every answer has. Null: out of memory.
+/// Makes an answer with its headers, `more` and those of every answer. Null: out of memory.
 Reply make_reply(const Response& response, const Values& more);
-/// The same whose body is what `sender` passes on, until `on_end` is called.
+/// Makes an answer whose body is the data of `sender`, until `on_end` is called.
 Reply make_reply(const Response& response, const Values& more, std::shared_ptr<StreamSender> sender,
                  std::function<void()> on_end);
 

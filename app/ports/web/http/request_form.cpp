@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBadRequest = 400, kMisdirected = 421;
 
-/// Length of an absolute target's scheme with the two slashes; 0: the target has none.
+/// Length of an absolute target's scheme with the two slashes; 0: not an absolute target.
 std::size_t scheme_size(std::string_view target) {
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (equal_in_any_case(target.substr(0, scheme.size()), scheme)) return scheme.size();
@@ -19,8 +19,8 @@ std::size_t scheme_size(std::string_view target) {
   return 0;
 }
 
-/// The host in the target counts, whatever the Host header says. Its characters are not escaped, so
-/// that the decoded path begins with them as the target does.
+/// Uses the host in the target instead of the Host header. Its characters are not escaped, so that
+/// the decoded path begins with them like the target.
 void take_absolute_form(Request& request) {
   const std::size_t scheme = scheme_size(request.target);
   if (scheme == 0) return;
@@ -38,15 +38,15 @@ std::size_t count_of(const Request& request, std::string_view name) {
       request.headers, [name](const auto& sent) { return equal_in_any_case(sent.first, name); }));
 }
 
-/// True: a proxy may see another end of the body than we do (RFC 9112, 6.3), and what follows as
-/// another request.
+/// Returns whether a proxy may determine another end of the body (RFC 9112, 6.3), and treat the
+/// rest as another request.
 bool has_two_lengths(const Request& request) {
   const std::size_t lengths = count_of(request, "Content-Length");
   return lengths > 1 || (lengths == 1 && count_of(request, "Transfer-Encoding") > 0);
 }
 
-/// A token (RFC 9110, 5.6.2). The library keeps the space of "Host : a" in the name, which would
-/// then be another header than a proxy takes it for (RFC 9112, 5.1).
+/// Returns whether `name` is a token (RFC 9110, 5.6.2). The library keeps the space of "Host : a"
+/// in the name, which would then differ from the header that a proxy sees (RFC 9112, 5.1).
 bool is_token(std::string_view name) {
   constexpr std::string_view kOthers = "!#$%&'*+-.^_`|~";
   return !name.empty() && std::ranges::all_of(name, [&](unsigned char c) {
@@ -54,8 +54,7 @@ bool is_token(std::string_view name) {
   });
 }
 
-/// Closes the connection, too: where the end of a request is not certain, the next one's begin is
-/// not.
+/// Refuses and closes the connection, because the beginning of the next request is uncertain, too.
 Response refused_with_its_connection(std::string_view why) {
   Response refusal = error_response(kBadRequest, std::string(why));
   refusal.headers.emplace_back("Connection", "close");
@@ -67,7 +66,7 @@ Response refused_with_its_connection(std::string_view why) {
 std::optional<Response> settle_form(Request& request, std::string_view version,
                                     const ServerNames& own) {
   if (request.target.find("%00") != std::string::npos) {
-    // The library's C strings were cut there.
+    // The library's C strings end at the zero byte.
     return error_response(kBadRequest, "a path or a query must not contain a zero byte");
   }
   const auto& headers = request.headers;

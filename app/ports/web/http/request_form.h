@@ -10,17 +10,16 @@
 
 namespace orbwatch::app::web {
 
-/// The names of the server, and the proxies that it believes.
+/// Names of the server, and its trusted proxies.
 struct ServerNames {
   std::vector<std::string> names;
   std::vector<hal::Network> trusted_proxies;
 };
 
-/// Brings a request of an HTTP version, "HTTP/1.1", into the form that routes judge: the target's
-/// absolute form becomes path and host (RFC 9112, 3.2.2), and what a trusted proxy says of the
-/// client replaces what the connection shows. Returns the refusal of one that is malformed, 400, or
-/// meant for another host, 421. One of HTTP/1.0, which no browser sends, need not name a host.
-/// Reentrant.
+/// Normalises a request of an HTTP version, "HTTP/1.1": the target's absolute form becomes path and
+/// host (RFC 9112, 3.2.2), and a trusted proxy's statements about the client replace the
+/// connection's properties. Returns the refusal of a malformed request, 400, or of one for another
+/// host, 421. A request of HTTP/1.0, which no browser sends, need not name a host. Reentrant.
 std::optional<Response> settle_form(Request& request, std::string_view version,
                                     const ServerNames& own);
 

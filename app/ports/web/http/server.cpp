@@ -22,20 +22,20 @@ namespace orbwatch::app::web {
 namespace {
 
 constexpr unsigned kThreads = 2;
-/// Of a connection: request line, headers and query.
+/// Memory of a connection for request line, headers and query.
 constexpr std::size_t kHeadBytes = 32 * 1024;
-/// Not sent yet by the kernel for a client: what is beyond it would only age. Another picture is
-/// begun when less waits (measured by tests/bench/page over a third of the bandwidth that pictures
-/// of 28 kB need: seen 0.16 s after their exposure; with 128 KiB 0.5 s).
+/// Limit of unsent data in the kernel per client, because queued pictures only age. Another picture
+/// is started when less is queued (measured by tests/bench/page with a third of the bandwidth that
+/// pictures of 28 kB need: displayed 0.16 s after their exposure; with 128 KiB 0.5 s).
 constexpr int kUnsentBytes = 2048;
 
-/// GnuTLS's: TLS 1.2 and 1.3 with keys of each connection's own, 128 bits or more, and ciphers that
-/// authenticate by themselves (GCM, ChaCha20-Poly1305): no suite with CBC.
+/// Priorities of GnuTLS: TLS 1.2 and 1.3 with forward secrecy, 128 bits or more, and authenticated
+/// ciphers (GCM, ChaCha20-Poly1305); no suite with CBC.
 constexpr const char* kTlsPriorities =
     "SECURE128:-VERS-ALL:+VERS-TLS1.3:+VERS-TLS1.2:-RSA:-MAC-ALL:+AEAD";
 
-/// Of the thread that opens a server: why libmicrohttpd refuses. Later complaints are about
-/// clients, who could flood the log with them.
+/// libmicrohttpd's reason for refusing to start; per thread. Later messages concern clients, which
+/// could flood the log with them.
 thread_local std::string complaint;
 
 void keep_complaint(void* /*server*/, const char* format, va_list arguments) {
@@ -64,23 +64,23 @@ Connections::Connection* connection_of(MHD_Connection* connection) {
   return static_cast<Connections::Connection*>(info->socket_context);
 }
 
-/// A request whose body may still be on its way.
+/// A request whose body may be incomplete.
 struct Arriving {
   std::string target;
-  ExchangePtr exchange;             ///< null: its head is still on its way
-  std::optional<Response> refusal;  ///< of its form
+  ExchangePtr exchange;             ///< null: its head is incomplete
+  std::optional<Response> refusal;  ///< refusal of a malformed request
   bool is_too_large = false;
   bool was_handled = false;
 };
 
 void set_option(int socket, int level, int option, int value) {
-  // One that the kernel does not know costs speed only.
+  // An option that the kernel does not support only costs speed.
   static_cast<void>(::setsockopt(socket, level, option, &value, sizeof value));
 }
 
 }  // namespace
 
-/// What libmicrohttpd calls, on its threads; `self` is the server.
+/// Callbacks of libmicrohttpd, on its threads; `self` is the server.
 struct Server::Callbacks {
   static void connection(void* self, MHD_Connection* connection, void** context,
                          MHD_ConnectionNotificationCode code);
@@ -116,7 +116,7 @@ void Server::Callbacks::connection(void* self, MHD_Connection* connection, void*
   set_option(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsentBytes);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
   const std::string host = host_text(peer);
-  // Those of a proxy are its clients', and count for them with each request.
+  // A proxy's connections belong to its clients, and count for them with each request.
   const std::size_t most = is_trusted(host, server.own_.trusted_proxies)
                                ? std::numeric_limits<std::size_t>::max()
                                : server.most_of_an_address();
@@ -140,7 +140,7 @@ MHD_Result Server::Callbacks::request(void* self, MHD_Connection* connection, co
   auto& arriving = *static_cast<Arriving*>(*state);
   if (!arriving.exchange) {
     begin(server, connection, url, method, version, arriving);
-    // Refused before it is sent.
+    // Refused before the body is sent.
     return arriving.is_too_large ? send(server, connection, arriving) : MHD_YES;
   }
   if (*upload_size == 0) return send(server, connection, arriving);
@@ -178,7 +178,7 @@ void Server::Callbacks::begin(const Server& server, MHD_Connection* connection, 
   arriving.exchange = std::make_shared<Exchange>(std::move(request));
 }
 
-/// Nullopt: the request is to be served.
+/// Refusal of a request; nullopt: it is served.
 std::optional<Response> Server::Callbacks::refusal(Server& server,
                                                    Connections::Connection& connection,
                                                    Arriving& arriving) {
@@ -278,7 +278,7 @@ Result<> Server::listen() {
     tls.push_back({MHD_OPTION_HTTPS_PRIORITIES, 0, const_cast<char*>(kTlsPriorities)});
   }
   tls.push_back({MHD_OPTION_END, 0, nullptr});
-  // The library's own limit of silence; end_overdue() comes before it, and counts.
+  // The library's own idle limit; end_overdue() acts earlier, and counts.
   const auto silence =
       std::chrono::ceil<std::chrono::seconds>(settings_.request_timeout) + std::chrono::seconds(1);
   complaint.clear();

@@ -18,45 +18,46 @@ struct MHD_Daemon;
 
 namespace orbwatch::app::web {
 
-/// What happened to clients since start.
+/// Counters of clients since the start.
 struct ServerCounts {
-  std::atomic<std::uint64_t> requests{0};     ///< that arrived whole
-  std::atomic<std::uint64_t> refused{0};      ///< because of their form, size or host name
-  std::atomic<std::uint64_t> overdue{0};      ///< connections ended because they were too slow
-  std::atomic<std::uint64_t> turned_away{0};  ///< connections of addresses that had enough
+  std::atomic<std::uint64_t> requests{0};  ///< complete requests received
+  std::atomic<std::uint64_t> refused{0};   ///< requests refused for their form, size or host name
+  std::atomic<std::uint64_t> overdue{0};   ///< connections ended because the client was too slow
+  std::atomic<std::uint64_t> turned_away{0};  ///< connections of addresses beyond their limit
   std::atomic<std::uint64_t> connections{0};  ///< open now
   std::atomic<std::uint64_t> streams{0};      ///< open now
   std::atomic<std::uint64_t> full{0};         ///< streams refused because of max_streams
 };
 
-/// Where and how a server listens.
+/// Address, port and TLS of a server.
 struct Endpoint {
   std::string address;         ///< numeric
   int port = 0;                ///< 0: any free port
-  std::optional<PemPair> pem;  ///< of HTTPS; none: HTTP
-  Values headers;              ///< of every answer, besides others
+  std::optional<PemPair> pem;  ///< credentials for HTTPS; nullopt: HTTP
+  Values headers;              ///< further headers of every answer
 };
 
 /// HTTP/1.1, plain or within TLS 1.2 or 1.3, by libmicrohttpd on two threads of its own, which wait
-/// for sockets only. Thread rule: one owner; end_overdue on any thread.
+/// only for sockets. Thread rule: one owner; end_overdue on any thread.
 class Server {
  public:
-  /// Called on a thread of the server with each request that is whole. Must not wait; it answers
-  /// at once or keeps the exchange and answers later.
+  /// Called on a thread of the server with each complete request. Must not wait: it answers at
+  /// once, or keeps the exchange and answers later.
   using Handler = std::function<void(const ExchangePtr&)>;
 
-  /// Listens. `settings` and `counts` outlive it. Errors: address and reason; a trusted proxy is
-  /// neither an address nor a network.
+  /// Starts listening. `settings` and `counts` outlive the server. Errors: the address cannot be
+  /// used, with the reason; a trusted proxy is neither an address nor a network.
   static Result<std::unique_ptr<Server>> open(const WebSettings& settings, Endpoint endpoint,
                                               Handler handler, ServerCounts& counts);
-  /// Ends all connections, as Connections::end_all() does.
+  /// Ends all connections by Connections::end_all().
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
   int port() const { return port_; }
 
-  /// Ends connections that are overdue or whose client has gone; called about once a second.
+  /// Ends connections that are overdue or whose client has disconnected; to be called about once a
+  /// second.
   void end_overdue();
 
  private:

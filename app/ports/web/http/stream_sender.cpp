@@ -8,8 +8,8 @@ ssize_t StreamSender::read(char* out, std::size_t most) {
   // Under the lock, so that no wake() is lost between the empty read and the suspension.
   const std::lock_guard lock(mutex_);
   if (has_ended_) {
-    // At the end of a stream libmicrohttpd (0.9.75) keeps the connection until something else wakes
-    // its thread; a write that fails closes it at once.
+    // At the end of a stream libmicrohttpd (0.9.75) keeps the connection until another event wakes
+    // its thread; a failed write closes it at once.
     out[0] = '\n';
     return 1;
   }

@@ -12,16 +12,16 @@ struct MHD_Connection;
 
 namespace orbwatch::app::web {
 
-/// Passes a stream to its connection, which is suspended while there is nothing to read. Thread
-/// rule: read by the connection's thread; the rest on any.
+/// Passes a stream to its connection, which is suspended while there is no data to read. Thread
+/// rule: read on the connection's thread; everything else on any thread.
 class StreamSender {
  public:
   StreamSender(std::shared_ptr<Stream> stream, MHD_Connection* connection)
       : stream_(std::move(stream)), connection_(connection) {}
 
-  /// As libmicrohttpd's callback wants it: how much was written to `out`, 0 when suspended.
+  /// Result for libmicrohttpd's callback: number of bytes written to `out`, 0: suspended.
   ssize_t read(char* out, std::size_t most);
-  /// There is something to read again.
+  /// Reports that there is data to read again.
   void wake();
   /// Ends the stream. Its socket must have been shut down: the next write fails, and closes the
   /// connection.

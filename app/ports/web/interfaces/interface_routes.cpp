@@ -42,7 +42,7 @@ std::string tables_json(const std::vector<InterfaceTable>& tables) {
     }
     all[table.interface][table.name] = std::move(rows);
   }
-  // What DDS says about a failure may have any bytes.
+  // Error texts of DDS may contain any bytes.
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

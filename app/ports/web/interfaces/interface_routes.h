@@ -13,8 +13,8 @@ namespace orbwatch::app::web {
 /// `{"modbus": {"registers": [{"name": ..., "value": ...}, ...]}, ...}`. Reentrant.
 std::string tables_json(const std::vector<InterfaceTable>& tables);
 
-/// The routes of what the interfaces show of themselves, and of the program's versions. `tables`
-/// may be called on any thread; empty: nothing is shown.
+/// Routes of the interfaces' tables, and of the program's versions. `tables` is called on any
+/// thread; empty: no tables.
 std::vector<Route> interface_routes(std::function<std::vector<InterfaceTable>()> tables,
                                     const Program& program);
 

@@ -26,7 +26,7 @@ constexpr std::array kLevels{
 
 constexpr std::size_t kUsualLines = 200;
 
-/// Nullopt: there is one that is no whole number.
+/// A whole number of the query; nullopt: present but not a whole number.
 template <class Number>
 std::optional<Number> number_of(const Request& request, const char* name, Number usual) {
   const std::string* text = request.argument(name);
@@ -37,7 +37,7 @@ std::optional<Number> number_of(const Request& request, const char* name, Number
   return number;
 }
 
-/// Error: which argument is wrong, and what is allowed.
+/// Requested lines. Error: an invalid argument, with its allowed values.
 Result<RecentLog::Wanted> wanted_of(const Request& request) {
   RecentLog::Wanted wanted;
   const auto most = number_of(request, "lines", kUsualLines);
@@ -71,14 +71,14 @@ void show(const RecentLog& log, const ExchangePtr& exchange) {
     exchange->answer(error_response(400, wanted.error().message));
     return;
   }
-  // Asked before the lines: none that comes meanwhile is passed over.
+  // Read before the lines, so that no line added meanwhile is skipped.
   std::uint64_t newest = log.newest_number();
   Json lines = Json::array();
   for (const RecentLog::Line& line : log.newest(*wanted)) {
     lines.push_back(line_json(line));
     newest = std::max(newest, line.number);
   }
-  // A file's name may have any bytes.
+  // File names may contain any bytes.
   exchange->answer(json_response(Json{{"newest", newest}, {"lines", std::move(lines)}}.dump(
       -1, ' ', false, Json::error_handler_t::replace)));
 }

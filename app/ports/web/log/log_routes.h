@@ -8,7 +8,7 @@
 
 namespace orbwatch::app::web {
 
-/// The route of the newest lines of the log; none without a log.
+/// Route of the newest lines of the log; none without a log.
 std::vector<Route> log_routes(std::shared_ptr<const RecentLog> log);
 
 }  // namespace orbwatch::app::web

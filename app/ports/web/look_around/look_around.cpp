@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kBinary = "application/octet-stream";
 
-/// FNV-1a, quoted as HTTP wants it.
+/// Hash FNV-1a, quoted as required by HTTP.
 std::string tag_of(const std::string& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
@@ -82,7 +82,7 @@ void LookAround::serve_mesh(const ExchangePtr& exchange) {
       return;
     }
   }
-  // Once it is there it stays as it is.
+  // A computed mesh never changes.
   answer(exchange, sphere->mesh, sphere->tag);
 }
 

@@ -14,9 +14,9 @@
 
 namespace orbwatch::app::web {
 
-/// Serves what browsers need to draw views of the room from a ball's picture by themselves. A mesh
-/// is computed when it is first asked for, on shared threads, and kept: calibration and scene
-/// change with a restart only. Thread rule: stop by the owner; the routes on any thread.
+/// Serves the data from which browsers draw views of the room from a ball's picture. A mesh is
+/// computed at the first request, on shared threads, and kept, because calibration and scene change
+/// only with a restart. Thread rule: stop by the owner; the routes on any thread.
 class LookAround {
  public:
   LookAround(const StatusNames& names, const std::vector<PublishedView>& views,
@@ -24,16 +24,16 @@ class LookAround {
 
   std::vector<Route> routes();
 
-  /// Waits for the computation under way; what still waits is left to its deadline.
+  /// Waits for the computation in progress; pending requests are left to their deadline.
   void stop() { work_.cancel(); }
   std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
 
  private:
   struct Sphere {
-    std::string name;  ///< of the view
+    std::string name;  ///< name of the view
     std::shared_ptr<const optics::ViewProjection> view;
-    Bytes mesh;                        ///< null: not computed yet; under mutex_
-    std::string tag;                   ///< of the mesh; under mutex_
+    Bytes mesh;                        ///< null: not computed yet; guarded by mutex_
+    std::string tag;                   ///< ETag of the mesh; guarded by mutex_
     std::vector<ExchangePtr> waiting;  ///< under mutex_
   };
 
@@ -42,7 +42,7 @@ class LookAround {
   void compute();
   static void answer(const ExchangePtr& exchange, const Bytes& mesh, const std::string& tag);
 
-  std::string list_;  ///< the answer of serve_list()
+  std::string list_;  ///< answer of serve_list()
   std::mutex mutex_;
   std::vector<Sphere> spheres_;
   hal::SharedThreads::Work work_;

@@ -5,16 +5,16 @@
 
 namespace orbwatch::app::web {
 
-/// A file of page/files, as the build found it.
+/// A file of page/files, embedded at build time.
 struct PageFile {
-  std::string_view name;  ///< its path there
+  std::string_view name;  ///< path within page/files
   std::string_view content;
 };
 
-/// The page: index.html and what it loads.
+/// The page: index.html and the files that it loads.
 extern const std::span<const PageFile> kPageFiles;
 
-/// Of its name's ending; empty for one that the page has none of.
+/// Media type by the extension; empty: an extension that the page does not use.
 std::string_view page_type(std::string_view name);
 
 }  // namespace orbwatch::app::web

@@ -10,24 +10,24 @@
 
 namespace orbwatch::app::web {
 
-/// What one pixel of a view shows. Numbers are not valid (signals::kNotValid) where there are none.
+/// Values at one pixel of a view. Numbers without a value are signals::kNotValid.
 struct Pixel {
   std::optional<optics::Vec3> direction;  ///< unit vector, machine frame, from the ball's centre
   Validity validity = Validity::Outside;
-  double intensity = signals::kNotValid;    ///< % of full scale: as measured, else as shown
-  double temperature = signals::kNotValid;  ///< degC of a black body, as the camera's counts say
+  double intensity = signals::kNotValid;  ///< % of full scale, measured if possible, else displayed
+  double temperature = signals::kNotValid;  ///< degC of a black body, from the camera's counts
   double distance = signals::kNotValid;     ///< mm from the ball's centre to the scene
-  optics::Vec3 point;                       ///< there, machine frame, mm; with a distance only
+  optics::Vec3 point;  ///< point of the scene, machine frame, mm; only with a distance
 };
 
-/// The pixel nearest to (u, v), which lies in the picture that the view has. `projection` is the
+/// Values at the pixel nearest to (u, v), which is inside the view's picture. `projection` is the
 /// view's. Reentrant.
 Pixel pixel_of(const View& view, const optics::ViewProjection& projection, const optics::Ball& ball,
                const optics::SceneProxy& scene, const optics::Vec2& at);
 
-/// What is known of a pixel of the picture that was sent under that number, as JSON; null where
-/// there is nothing: {"number", "stamp", "yaw", "pitch", "seen", "intensity", "temperature",
-/// "distance", "point": [x, y, z]}. Reentrant.
+/// Values at a pixel of the picture sent under `number`, as JSON; null where there is no value:
+/// {"number", "stamp", "yaw", "pitch", "seen", "intensity", "temperature", "distance", "point": [x,
+/// y, z]}. Reentrant.
 std::string pixel_json(const Pixel& pixel, std::uint64_t number, hal::TimePoint stamp);
 
 }  // namespace orbwatch::app::web

@@ -11,7 +11,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// Whole numbers of a double.
+/// Largest whole number that a double represents exactly.
 constexpr double kMostNumber = 1LL << std::numeric_limits<double>::digits;
 
 std::string gone(std::uint64_t number, const std::string& view) {
@@ -20,7 +20,8 @@ std::string gone(std::uint64_t number, const std::string& view) {
          "or the next one without a number";
 }
 
-/// A ball's picture is not pointed; that of other kinds is made as the view was.
+/// Projection of a view's picture. A ball's picture is not pointed; other kinds are projected with
+/// the view's own parameters.
 Result<optics::ViewProjection> projection_of(const View& view, const PublishedView& published) {
   if (published.ball) return *published.ball;
   return optics::ViewProjection::make(view.spec);
@@ -85,7 +86,7 @@ Result<PixelRoute::Question> PixelRoute::question_of(const ExchangePtr& exchange
   return question;
 }
 
-/// Those that the server has answered meanwhile, at their deadline, wait no more.
+/// Adds a waiting question, and removes those that the server has answered at their deadline.
 void PixelRoute::wait(Question question) {
   const std::lock_guard lock(mutex_);
   std::erase_if(waiting_, [](const Question& other) { return other.exchange->is_answered(); });
@@ -93,7 +94,7 @@ void PixelRoute::wait(Question question) {
 }
 
 void PixelRoute::show(const ViewPtr& view, std::uint64_t number) {
-  // One that was made before anybody pointed has no counts.
+  // A view rendered before the first request has no counts.
   const bool lacks_counts = view->kelvin_per_count > 0 && view->counts.empty();
   if (lacks_counts || !recent_.wants(view->index, hal::Clock::now())) return;
   recent_.keep(view, number);

@@ -14,29 +14,29 @@
 
 namespace orbwatch::app::web {
 
-/// Says what a pixel of a picture that was sent shows. Whoever asks points into the view, whose
-/// pictures are kept from then on: without a number the next one answers. Thread-safe.
+/// Serves the values at a pixel of a sent picture. A request makes the view's pictures kept from
+/// then on; a request without a number is answered with the next one. Thread-safe.
 class PixelRoute {
  public:
   explicit PixelRoute(const WebContext& context);
 
   Route route();
 
-  /// Whether somebody points into a view. Takes no lock.
+  /// Returns whether a client points into a view. Takes no lock.
   bool wants(std::size_t view, hal::TimePoint now) const { return recent_.wants(view, now); }
-  /// A picture is about to be sent under this number.
+  /// Reports a picture that is about to be sent under this number.
   void show(const ViewPtr& view, std::uint64_t number);
 
-  /// Releases views into which nobody points any more.
+  /// Releases views into which clients no longer point.
   void release_unwanted(hal::TimePoint now) { recent_.release_unwanted(now); }
-  /// Leaves what waits to its deadline.
+  /// Stops; waiting requests are left to their deadline.
   void stop();
 
  private:
   struct Question {
     ExchangePtr exchange;
     std::size_t view;
-    std::optional<std::uint64_t> number;  ///< none: of the next picture
+    std::optional<std::uint64_t> number;  ///< nullopt: the next picture
     optics::Vec2 pixel;
   };
 
@@ -51,7 +51,7 @@ class PixelRoute {
   const optics::SceneProxy scene_;
   RecentViews recent_;
   std::mutex mutex_;
-  std::vector<Question> waiting_;  ///< for the next picture; under mutex_
+  std::vector<Question> waiting_;  ///< questions for the next picture; guarded by mutex_
 };
 
 }  // namespace orbwatch::app::web

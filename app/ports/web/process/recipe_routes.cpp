@@ -13,12 +13,12 @@ const QueryArgument kNumber{"number", "Number of the recipe; default: the select
 const QueryArgument kPixels{
     "pixels", "u,v,u,v,...: px to the right and down, pixel centres at integers", true, false};
 
-/// A recipe's file has no more corners of a region.
+/// Limit of corners per region in a recipe's file.
 constexpr std::size_t kMostCorners = 64;
-/// Beside the view, for corners that are dragged out of it.
+/// Largest distance outside the view, for corners dragged out of it.
 constexpr double kFarthest = kMaxSide;
 
-/// Error: not all of the text is numbers in pairs.
+/// Parses pairs of numbers. Error: the text is not entirely pairs of numbers.
 Result<std::vector<optics::Vec2>> pixels_of(const std::string& text) {
   std::vector<double> numbers;
   const char *next = text.data(), *const end = next + text.size();
@@ -70,8 +70,8 @@ std::vector<Route> RecipeRoutes::routes() {
   return {std::move(recipe), std::move(polygon)};
 }
 
-/// Before the pipeline's first report it is the first one, with which that starts; without recipes
-/// an empty one.
+/// The requested recipe. Before the pipeline's first report the first recipe is selected; without
+/// recipes the result is empty.
 Result<const MeasuredRecipe*> RecipeRoutes::recipe_of(const Request& request) const {
   static const MeasuredRecipe kNone;
   const std::string* asked = request.argument(kNumber.name);

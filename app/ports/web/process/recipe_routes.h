@@ -12,11 +12,10 @@
 
 namespace orbwatch::app::web {
 
-/// Serves what a recipe measures, and where: its regions in its views, and places for new corners.
-/// Thread-safe.
+/// Serves a recipe's regions in its views, and coordinates for new corners. Thread-safe.
 class RecipeRoutes {
  public:
-  /// `selected` says on any thread which one of `recipes` is in force, by its number.
+  /// `selected` returns the number of the selected recipe, on any thread.
   RecipeRoutes(std::vector<MeasuredRecipe> recipes, signals::RegionScene scene,
                std::function<std::uint16_t()> selected)
       : recipes_(std::move(recipes)), scene_(std::move(scene)), selected_(std::move(selected)) {}

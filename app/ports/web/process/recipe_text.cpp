@@ -27,13 +27,13 @@ Json lines_json(const Lines& lines) {
   return list;
 }
 
-/// Around all that the view shows.
+/// Frame around the view's field of view.
 Lines frame_of(const optics::ViewProjection& view) {
   const double right = view.width() - 0.5, bottom = view.height() - 0.5;
   return {{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}, {-0.5, -0.5}}};
 }
 
-/// Regions whose outline is wrong do not run.
+/// Outline in the view; regions with an invalid outline do not run.
 Lines lines_of(const optics::ViewProjection& view, const std::vector<Vec3>& outline) {
   if (outline.empty()) return frame_of(view);
   const auto polygon = signals::SphericalPolygon::make(outline);

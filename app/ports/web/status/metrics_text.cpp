@@ -15,8 +15,8 @@ namespace {
 using prometheus::ClientMetric;
 using prometheus::MetricFamily;
 
-/// The figures by their metric's name. Made at each scrape from the model, which counts already: a
-/// prometheus::Registry would hold every figure a second time.
+/// Figures by metric name. Made at each scrape from the model, which already has the counts: a
+/// prometheus::Registry would duplicate every figure.
 class Families {
  public:
   explicit Families(hal::TimePoint now) : now_(now) {}

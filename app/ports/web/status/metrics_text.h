@@ -11,8 +11,8 @@
 namespace orbwatch::app::web {
 
 /// Prometheus' text format 0.0.4: each figure as orbwatch_KIND_FIGURE with the component's name as
-/// label "name", Nan where it is not valid; those of other interfaces, too; and orbwatch_build_info
-/// with the label "version". Reentrant.
+/// label "name", Nan where it is not valid; including those of other interfaces; and
+/// orbwatch_build_info with the label "version". Reentrant.
 std::string metrics_text(const StatusReport& report, const WebStatistics& web,
                          std::span<const InterfaceMetric> interfaces, std::string_view version);
 

@@ -15,7 +15,7 @@ std::string with_unit(std::string_view description, std::string_view unit) {
   return std::string(description) + (unit.empty() ? "" : ", " + std::string(unit));
 }
 
-/// As app/model/json.cpp writes a field.
+/// Schema of a field in the form of app/model/json.cpp.
 template <class Value>
 void add_figure(Json& properties, const FieldInfo& field) {
   const std::string name(field.name);
@@ -43,7 +43,7 @@ Json schema_of(const Part& part, bool is_named) {
   return {{"type", "object"}, {"properties", std::move(properties)}};
 }
 
-/// Of a status with one component of each kind.
+/// Schema from a status with one component of each kind.
 Json status_schema() {
   Status one_of_each;
   one_of_each.region_count = one_of_each.alarm_count = 1;
@@ -177,7 +177,7 @@ std::string openapi_json(const std::vector<Route>& routes) {
   const Json all{
       {"openapi", "3.0.3"},
       {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
-      // Counts from where this description is, also below a path of a proxy.
+      // Relative to this description, also below a path of a proxy.
       {"servers", Json::array({{{"url", "../.."}}})},
       {"paths", std::move(paths)},
       {"components",

@@ -7,8 +7,8 @@
 
 namespace orbwatch::app::web {
 
-/// The interface as OpenAPI 3.0.3 describes it, in JSON: every route, every command with its
-/// arguments, every figure of the status. From the declarations alone; reentrant.
+/// OpenAPI 3.0.3 description of the interface, in JSON: every route, every command with its
+/// arguments, every figure of the status. Generated from the declarations only; reentrant.
 std::string openapi_json(const std::vector<Route>& routes);
 
 }  // namespace orbwatch::app::web

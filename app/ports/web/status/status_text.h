@@ -7,8 +7,8 @@
 
 namespace orbwatch::app::web {
 
-/// JSON: "stamp" in UTC or null, "age" of what was last said by the pipeline in seconds, then every
-/// component as app/model/json.h has it. Reentrant.
+/// Status as JSON: "stamp" in UTC or null, "age" of the pipeline's last report in seconds, then
+/// every component in the form of app/model/json.h. Reentrant.
 std::string status_json(const StatusReport& report, const WebStatistics& web, double age);
 
 }  // namespace orbwatch::app::web

@@ -35,7 +35,7 @@ inline constexpr Quantity kDays{"d", 0.01, -100000, 100000};
 
 inline const Component kWebComponent{"web"};
 
-/// Of the web interface itself, since start. Reported as kWebComponent.
+/// Counters of the web interface itself, since the start. Reported as kWebComponent.
 struct WebStatistics {
   ORBWATCH_WEB_FIGURES(ORBWATCH_FIELD_MEMBER)
 };

@@ -14,19 +14,19 @@
 
 namespace orbwatch::app::web {
 
-/// What a feed has at one moment: a picture as JPEG, or the status as JSON.
+/// Item of a feed: a picture as JPEG, or the status as JSON.
 struct Item {
   Bytes bytes;
   std::uint64_t number = 0;  ///< counts the items of its feed from 1
-  hal::TimePoint stamp;      ///< of the exposure, or of the report
-  std::optional<Aim> aim;    ///< of a picture
+  hal::TimePoint stamp;      ///< exposure start, or time of the report
+  std::optional<Aim> aim;    ///< aim of a picture
 };
 
-/// The newest item of one source for any number of readers, each at its own pace: one that is slow
-/// gets the newest when it asks again. Thread-safe; holds no lock while others are called.
+/// The newest item of one source for any number of readers, each at its own pace: a slow reader
+/// gets the newest item at its next read. Thread-safe; holds no lock during callbacks.
 class Feed {
  public:
-  /// Reads on; while one exists, items are wanted.
+  /// Reader of a feed; while one exists, items are wanted.
   class Reader {
    public:
     /// `wake` is called after each new item, on the publisher's thread.
@@ -37,7 +37,7 @@ class Feed {
 
     /// The newest item, unless it was returned before or is older than the reader.
     std::optional<Item> next();
-    /// Items that were never returned because newer ones came.
+    /// Number of items that were never returned because newer ones replaced them.
     std::uint64_t skipped() const { return skipped_; }
 
    private:
@@ -45,18 +45,18 @@ class Feed {
 
     const std::shared_ptr<Feed> feed_;
     const std::shared_ptr<const std::function<void()>> wake_;
-    std::uint64_t newest_ = 0;  ///< number of the last one returned
+    std::uint64_t newest_ = 0;  ///< number of the last item returned
     std::uint64_t skipped_ = 0;
   };
 
-  /// Whether somebody waits for an item. For the pipeline: no lock.
+  /// Returns whether a reader or a request waits for an item. Takes no lock, for the pipeline.
   bool is_wanted() const { return wanted_ > 0; }
 
-  /// Answers `exchange` with the next item, a picture, if it is not answered before.
+  /// Answers `exchange` with the next item, a picture, unless it is answered earlier.
   void answer_next(ExchangePtr exchange);
 
   void publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& aim = std::nullopt);
-  /// Of the item that is published next. For the publisher, of which there is one.
+  /// Number of the item that is published next. For the single publisher.
   std::uint64_t next_number() const;
 
  private:

@@ -33,7 +33,8 @@ void LiveStream::begin(const Source& source, Item item) {
   parts_.begin({head_, *body_, {}});
 }
 
-/// Each source in turn, so that none waits for another that is always ready.
+/// Starts the next message, from each source in turn, so that a source that is always ready does
+/// not starve others.
 bool LiveStream::begin_next() {
   for (std::size_t n = 0; n < sources_.size(); ++n) {
     const std::size_t k = (turn_ + n) % sources_.size();
@@ -54,7 +55,7 @@ bool LiveStream::begin_next() {
 
 std::size_t LiveStream::read(std::span<char> out) {
   if (parts_.are_sent() && !begin_next()) return 0;
-  // The message after this one is the newest when the client has room for it.
+  // The next message is chosen when the client has room for it, so that it is the newest.
   return parts_.read(out);
 }
 

@@ -15,21 +15,21 @@
 
 namespace orbwatch::app::web {
 
-/// Several feeds over one connection, by turns, because browsers open few connections to a host. Of
-/// each message first a line of JSON that says whose it is, its number, UTC stamp, age when it is
-/// sent, where the view looks (see Aim) and how many bytes follow the line:
-///   {"kind":"view","name":"front","number":7,"stamp":"...","age_ms":31.5,"aim":{...},"bytes":20480}
-/// The feed of kind "status" has no name and JSON as of /api/v1/status.
+/// Several feeds over one connection, in turn, because browsers limit connections per host. Each
+/// message begins with a line of JSON that states its feed, its number, UTC stamp, age when sent,
+/// the view's aim (see Aim) and the number of bytes that follow the line:
+/// {"kind":"view","name":"front","number":7,"stamp":"...","age_ms":31.5,"aim":{...},"bytes":20480}
+/// The feed of kind "status" has no name and the JSON of /api/v1/status.
 class LiveStream final : public Stream {
  public:
   static constexpr std::string_view kType = "application/octet-stream";
 
   struct Source {
-    std::string name;  ///< of the view; empty: the status
+    std::string name;  ///< name of the view; empty: the status
     std::shared_ptr<Feed> feed;
   };
 
-  /// `counts` outlives it.
+  /// `counts` outlives the stream.
   LiveStream(std::vector<Source> sources, StreamCounts& counts);
 
   void on_data(std::function<void()> wake) override;
@@ -41,9 +41,9 @@ class LiveStream final : public Stream {
 
   const std::vector<Source> sources_;
   StreamCounts& counts_;
-  std::vector<std::unique_ptr<Feed::Reader>> readers_;  ///< by source
-  std::size_t turn_ = 0;                                ///< the source that is asked first
-  std::string head_;                                    ///< of the message that is being sent
+  std::vector<std::unique_ptr<Feed::Reader>> readers_;  ///< readers by source
+  std::size_t turn_ = 0;                                ///< index of the source that is read first
+  std::string head_;                                    ///< head of the message being sent
   Bytes body_;
   Parts parts_;
 };

@@ -6,7 +6,7 @@ namespace orbwatch::app::web {
 
 namespace {
 
-/// Behind each picture, so that players show it without waiting for the next.
+/// Sent after each picture, so that players show it without waiting for the next.
 constexpr std::string_view kBoundary = "\r\n--orbwatch\r\n";
 
 }  // namespace
@@ -28,7 +28,7 @@ bool MjpegStream::begin_next() {
 
 std::size_t MjpegStream::read(std::span<char> out) {
   if (parts_.are_sent() && !begin_next()) return 0;
-  // The picture after this one is the newest when the client has room for it.
+  // The next picture is chosen when the client has room for it, so that it is the newest.
   return parts_.read(out);
 }
 

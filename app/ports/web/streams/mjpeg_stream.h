@@ -13,12 +13,12 @@
 
 namespace orbwatch::app::web {
 
-/// A feed as multipart/x-mixed-replace: what VLC, browsers and recorders play as MJPEG.
+/// A feed as multipart/x-mixed-replace, which VLC, browsers and recorders play as MJPEG.
 class MjpegStream final : public Stream {
  public:
   static constexpr std::string_view kType = "multipart/x-mixed-replace; boundary=orbwatch";
 
-  /// `counts` outlives it.
+  /// `counts` outlives the stream.
   MjpegStream(std::shared_ptr<Feed> feed, StreamCounts& counts)
       : feed_(std::move(feed)), counts_(counts) {}
 
@@ -31,8 +31,8 @@ class MjpegStream final : public Stream {
   const std::shared_ptr<Feed> feed_;
   StreamCounts& counts_;
   std::optional<Feed::Reader> reader_;
-  std::string head_;  ///< of the newest picture
-  Bytes picture_;     ///< the newest one; null: there was none
+  std::string head_;  ///< head of the newest picture
+  Bytes picture_;     ///< newest picture; null: none yet
   Parts parts_;       ///< head, picture and boundary
 };
 

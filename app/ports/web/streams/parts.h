@@ -8,7 +8,7 @@
 
 namespace orbwatch::app::web {
 
-/// What is left to send of a message. Refers to its bytes.
+/// Unsent parts of a message. Refers to its bytes.
 class Parts {
  public:
   bool are_sent() const {
@@ -16,7 +16,7 @@ class Parts {
   }
   void begin(std::array<std::string_view, 3> parts) { parts_ = parts; }
 
-  /// Writes as much as fits to `out`; returns how much.
+  /// Writes as much as fits to `out`; returns the number of bytes.
   std::size_t read(std::span<char> out) {
     std::size_t written = 0;
     for (std::string_view& part : parts_) {

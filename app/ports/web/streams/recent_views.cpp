@@ -14,7 +14,7 @@ bool RecentViews::wants(std::size_t view, hal::TimePoint now) const {
 }
 
 void RecentViews::keep(ViewPtr view, std::uint64_t number) {
-  // What is replaced returns to its buffers behind the lock.
+  // The replaced view is released after the lock.
   Kept kept{std::move(view), number};
   const std::lock_guard lock(mutex_);
   std::swap(kept_[oldest_], kept);

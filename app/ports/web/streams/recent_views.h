@@ -12,26 +12,26 @@
 
 namespace orbwatch::app::web {
 
-/// The newest views into which somebody points, by the number under which their picture was sent,
-/// so that what is said of a pixel is of the picture that is seen. Views are kept, not copied: at
-/// most kMost of all together, and none for longer than somebody points.
-/// Thread-safe; wants() takes no lock.
+/// The newest views into which clients point, by the number under which their picture was sent, so
+/// that a pixel's values belong to the displayed picture. Views are held, not copied: at most kMost
+/// in total, and none for longer than a client points. Thread-safe; wants() takes no lock.
 class RecentViews {
  public:
   static constexpr std::size_t kMost = 8;
-  /// A person moves the pointer, reads, and moves it again.
+  /// Time for which a request counts as pointing; a user moves the pointer, reads, and moves it
+  /// again.
   static constexpr std::chrono::seconds kPointing{5};
 
-  /// Somebody points into a view: from now on its views are kept.
+  /// Reports that a client points into a view; its views are kept from now on.
   void point(std::size_t view, hal::TimePoint now);
   bool wants(std::size_t view, hal::TimePoint now) const;
 
-  /// Keeps a view in place of the oldest.
+  /// Keeps a view in place of the oldest one.
   void keep(ViewPtr view, std::uint64_t number);
-  /// Null: it is not kept, or not any more.
+  /// The view sent under this number; null: not kept, or no longer kept.
   ViewPtr find(std::size_t view, std::uint64_t number) const;
 
-  /// Releases the views into which nobody points any more.
+  /// Releases the views into which clients no longer point.
   void release_unwanted(hal::TimePoint now);
   void release_all();
 

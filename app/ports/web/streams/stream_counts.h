@@ -5,10 +5,10 @@
 
 namespace orbwatch::app::web {
 
-/// Of all streams since start.
+/// Counters of all streams since the start.
 struct StreamCounts {
-  std::atomic<std::uint64_t> sent{0};     ///< pictures, begun
-  std::atomic<std::uint64_t> skipped{0};  ///< for readers that were slower than the pictures
+  std::atomic<std::uint64_t> sent{0};     ///< pictures whose transmission was started
+  std::atomic<std::uint64_t> skipped{0};  ///< pictures not sent because the reader was slower
 };
 
 }  // namespace orbwatch::app::web

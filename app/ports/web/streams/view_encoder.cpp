@@ -13,13 +13,13 @@ ViewEncoder::ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedTh
       on_picture_(std::move(on_picture)),
       work_(std::move(threads), [this] { encode(); }) {}
 
-/// Tolerates jitter of a quarter period.
+/// Returns whether a picture is due, with a tolerance of a quarter period for jitter.
 bool ViewEncoder::wants(hal::TimePoint stamp, bool is_wanted) const {
   return (is_wanted || feed_->is_wanted()) && stamp >= due_ - period_ / 4;
 }
 
 void ViewEncoder::accept(const ViewPtr& view) {
-  // A late picture does not delay the next, a pause gives no burst.
+  // A late picture does not delay the next one, and a pause is not followed by a burst.
   due_ = (view->stamp - due_ > period_ ? view->stamp : due_) + period_;
   mailbox_.put(view);
   work_.request();

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kHttpPort = 80, kHttpsPort = 443;
 
-/// What can stand in a header behind our own host.
+/// Returns whether `target` can be appended to our own host in a header.
 bool is_path(const std::string& target) {
   return target.starts_with('/') &&
          std::ranges::all_of(target, [](char c) { return c > ' ' && c <= '~'; });
@@ -30,7 +30,7 @@ Response to_https(const Request& request, int port) {
                       ? "; through a reverse proxy only if trusted_proxies of [web] has its address"
                       : ""));
   }
-  // Not a permanent one: the port may change.
+  // Temporary, because the port may change.
   constexpr int kTemporaryRedirect = 307;
   Response response = error_response(kTemporaryRedirect, "moved to " + place);
   response.headers.emplace_back("Location", place);

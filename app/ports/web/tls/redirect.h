@@ -5,16 +5,16 @@
 #include "app/ports/web/http/message.h"
 #include "app/ports/web/web_settings.h"
 
-/// What brings browsers to HTTPS, and keeps them there. All reentrant.
+/// Redirection of browsers to HTTPS. All reentrant.
 namespace orbwatch::app::web {
 
-/// The answer over HTTP to another computer: the same place over HTTPS; a request that would change
-/// something is refused. Nothing that it holds is judged.
+/// Answer over HTTP to another computer: redirects to the same place over HTTPS; refuses a request
+/// that would change something. Credentials in the request are ignored.
 Response to_https(const Request& request, int port);
 
-/// The headers besides others over HTTPS. Strict-Transport-Security (RFC 6797) counts for every
-/// port of a host, and browsers then let nobody past a certificate that they do not trust: only
-/// with an own certificate, and where HTTP and HTTPS have the ports that it turns into each other.
+/// Further headers over HTTPS. Strict-Transport-Security (RFC 6797) applies to every port of a
+/// host, and browsers then do not let users past an untrusted certificate. So it is sent only with
+/// a configured certificate, and only if HTTP and HTTPS have the ports that it maps to each other.
 Values https_headers(const WebSettings& settings);
 
 }  // namespace orbwatch::app::web

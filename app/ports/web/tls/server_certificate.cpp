@@ -14,9 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::sys_seconds;
 
-/// Clocks of browsers differ.
+/// Tolerance for clocks of browsers.
 constexpr std::chrono::days kClockDifference{1};
-/// RFC 5280's limit of a common name.
+/// Limit of a common name in RFC 5280.
 constexpr std::size_t kLongestName = 64;
 
 /// Key and certificate in one file, so that they are replaced together.
@@ -40,7 +40,7 @@ Result<ServerCertificate> parse(const std::string& pem) {
   });
 }
 
-/// Nothing but what DNS and addresses consist of.
+/// Returns whether `text` has only characters of DNS names and addresses.
 bool is_host(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
@@ -127,7 +127,7 @@ std::vector<std::string> own_hosts(const WebSettings& settings) {
   for (const std::string& name : settings.names) add(name);
   if (const std::string name = hal::host_name(); !name.empty()) {
     add(name);
-    // As multicast DNS has it.
+    // Name in multicast DNS.
     if (name.find('.') == std::string::npos) add(name + ".local");
   }
   return hosts;

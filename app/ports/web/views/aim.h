@@ -9,12 +9,12 @@
 
 namespace orbwatch::app::web {
 
-/// Where a view looks, how it mixes its cameras and in which colours it shows them: what the
-/// commands point_view, mix_sources, set_colour_map and set_colour_range change.
+/// Direction of a view, weights of its cameras and their colours, which the commands point_view,
+/// mix_sources, set_colour_map and set_colour_range change.
 struct Aim {
   optics::ViewSpec spec;
-  std::array<double, remap::kMaxSources> weights{};                        ///< as View::weights
-  std::array<std::optional<SourceColours>, remap::kMaxSources> colours{};  ///< as View::colours
+  std::array<double, remap::kMaxSources> weights{};                        ///< see View::weights
+  std::array<std::optional<SourceColours>, remap::kMaxSources> colours{};  ///< see View::colours
 };
 
 inline Aim aim_of(const View& view) { return {view.spec, view.weights, view.colours}; }
@@ -23,8 +23,8 @@ inline Aim aim_of(const View& view) { return {view.spec, view.weights, view.colo
 /// "colour_map": its name, "range": [first, last]}, or null, for each source]}. Reentrant.
 nlohmann::ordered_json json_of(const Aim& aim);
 
-/// The command that would leave an aim as it is, in place of one after check() that changes it.
-/// nullopt: another command, or of a source that is not there. Reentrant.
+/// For a checked command that changes an aim, the command with the aim's present values. Nullopt: a
+/// command of another kind, or for a missing source. Reentrant.
 std::optional<Command> at_present(const Command& command, const Aim& aim);
 
 }  // namespace orbwatch::app::web

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Enough that nobody sees the steps between them.
+/// Number of colours, enough for invisible steps.
 constexpr std::size_t kStops = 18;
 
 Json stops_of(std::string_view colour_map) {
@@ -25,7 +25,7 @@ Json stops_of(std::string_view colour_map) {
   return stops;
 }
 
-/// By place, as the command set_colour_map names them.
+/// Colour maps in the order of the command set_colour_map.
 Json colour_maps_json() {
   Json maps = Json::array();
   for (const std::string_view name : kColourMapNames) {
@@ -90,7 +90,7 @@ std::optional<Command> ViewList::at_present(const Command& command) const {
 }
 
 void ViewList::serve(const ExchangePtr& exchange) const {
-  // Has its memory before the lock, on which the pipeline's thread would wait for it.
+  // Allocated before locking, so that the pipeline's thread does not wait for it.
   std::vector<std::optional<Aim>> aims(names_.size());
   {
     const std::lock_guard lock(mutex_);

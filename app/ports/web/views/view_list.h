@@ -14,9 +14,9 @@
 
 namespace orbwatch::app::web {
 
-/// Says of all views what they show, whether they may be pointed and mixed, and how they are at
-/// present. Thread rule: accept by the pipeline's thread, which holds a lock for a copy only; the
-/// route on any.
+/// Lists all views with their content, the commands that apply to them, and their present aim.
+/// Thread rule: accept on the pipeline's thread, which holds a lock only for a copy; the route on
+/// any thread.
 class ViewList {
  public:
   explicit ViewList(const WebContext& context);
@@ -25,7 +25,7 @@ class ViewList {
 
   void accept(const View& view);
 
-  /// As at_present() of the view's newest picture. On any thread.
+  /// Result of web::at_present() for the view's newest picture. On any thread.
   std::optional<Command> at_present(const Command& command) const;
 
  private:
@@ -34,7 +34,8 @@ class ViewList {
   const std::vector<std::string> names_;
   const std::vector<PublishedView> views_;
   mutable std::mutex mutex_;
-  std::vector<std::optional<Aim>> aims_;  ///< of the newest picture, by view; under mutex_
+  /// Aims of the newest pictures, by view; guarded by mutex_.
+  std::vector<std::optional<Aim>> aims_;
 };
 
 }  // namespace orbwatch::app::web
