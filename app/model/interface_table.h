@@ -15,7 +15,7 @@ struct InterfaceTable {
   std::string interface;  ///< its table in the site file: "modbus"
   std::string name;       ///< kind of the rows: "registers"
   std::vector<std::string> columns;
-  std::vector<std::vector<Cell>> rows;  ///< as many cells as columns
+  std::vector<std::vector<Cell>> rows;  ///< one cell per column
 };
 
 }  // namespace orbwatch::app

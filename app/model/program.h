@@ -15,7 +15,7 @@ class RecentLog;
 struct Program {
   std::shared_ptr<ConfigurationFiles> files = nullptr;
   std::shared_ptr<const RecentLog> log = nullptr;
-  /// By name: the program's own first, then those of libraries.
+  /// Versions by name: the program's own first, then those of libraries.
   std::vector<std::pair<std::string, std::string>> versions{};
   std::string commanders{};  ///< interfaces that accept commands, in words
 };

@@ -376,7 +376,7 @@ struct Status : SystemStatus {
   std::array<AlarmStatus, signals::kMaxAlarms> alarms;
   std::array<RegionStatus, signals::kMaxRegions> regions;
   Health health;
-  std::array<StageStatus, kStages> stages;  ///< by Stage
+  std::array<StageStatus, kStages> stages;  ///< indexed by Stage
 };
 
 /// Calls `visit(field)` for every field of a part, in the order in which interfaces number them. A

@@ -16,7 +16,7 @@ namespace orbwatch::app {
 struct StatusNames {
   std::vector<std::string> cameras;
   std::vector<std::string> views;
-  std::map<std::uint16_t, std::vector<std::string>> regions;  ///< by the number of their recipe
+  std::map<std::uint16_t, std::vector<std::string>> regions;  ///< names by number of the recipe
 
   /// Empty when the region has no name.
   std::string_view region(std::uint16_t recipe, std::size_t index) const {

@@ -73,14 +73,16 @@ class SnapshotSink final : public Sink {
   Result<> remove_oldest(const std::string& newest);
 
   const SnapshotSettings settings_;
-  std::array<std::atomic<bool>, kMaxViews> live_{};    ///< by view
-  std::array<std::atomic<bool>, kMaxViews> busy_{};    ///< by view: requested or being written
-  std::array<std::atomic<bool>, kMaxViews> wanted_{};  ///< by view: request for its next picture
-  /// By view: the next picture serves a request; used by accept()'s thread only.
+  std::array<std::atomic<bool>, kMaxViews> live_{};  ///< indexed by view
+  /// Indexed by view: requested or being written.
+  std::array<std::atomic<bool>, kMaxViews> busy_{};
+  /// Indexed by view: request for its next picture.
+  std::array<std::atomic<bool>, kMaxViews> wanted_{};
+  /// Indexed by view: the next picture serves a request; used by accept()'s thread only.
   std::bitset<kMaxViews> asked_;
   std::mutex mutex_;
-  std::array<ViewPtr, kMaxViews> accepted_;  ///< by view: to be written; guarded by mutex_
-  std::bitset<kMaxViews> dropped_;           ///< by view: to be logged; guarded by mutex_
+  std::array<ViewPtr, kMaxViews> accepted_;  ///< indexed by view: to be written; guarded by mutex_
+  std::bitset<kMaxViews> dropped_;           ///< indexed by view: to be logged; guarded by mutex_
   std::atomic<std::uint64_t> written_{0};
   hal::Thread thread_;
 };

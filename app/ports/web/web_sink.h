@@ -92,7 +92,7 @@ class WebSink final : public Sink {
   web::ViewList list_;
   web::PixelRoute pixels_;
   std::vector<std::unique_ptr<web::ViewEncoder>> views_;  ///< encoders by View::index
-  /// By view: the next picture has readers; used by accept()'s thread only.
+  /// Indexed by view: the next picture has readers; used by accept()'s thread only.
   std::vector<bool> asked_;
 
   mutable hal::PriorityMutex mutex_;

@@ -21,7 +21,7 @@ struct CommandRequest {
   RequestId id;
   std::string name;
   std::array<double, kMaxArguments> arguments{};
-  std::size_t argument_count = 0;  ///< as sent
+  std::size_t argument_count = 0;  ///< number of arguments sent
 };
 
 /// The answer to a request.

@@ -52,7 +52,7 @@ class RequestLedger {
   }
 
   std::size_t capacity_;
-  std::vector<Entry> entries_;  ///< by the time of the last new request, oldest first
+  std::vector<Entry> entries_;  ///< ordered by the time of the last new request, oldest first
 };
 
 }  // namespace orbwatch::app

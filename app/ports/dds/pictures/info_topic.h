@@ -15,7 +15,7 @@ namespace orbwatch::app {
 /// Calibration of a picture, passed from the pipeline to a topic.
 struct StampedCalibration {
   std::variant<optics::ViewSpec, optics::Intrinsics> calibration;  ///< perspective view, or lens
-  TimeMessage stamp{};                                             ///< of the picture
+  TimeMessage stamp{};                                             ///< stamp of the picture
   const std::string* frame_id = nullptr;  ///< the picture's frame_id; outlives the topic
 };
 

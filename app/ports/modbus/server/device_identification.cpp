@@ -29,7 +29,7 @@ tl::expected<std::vector<std::uint8_t>, Exception> identify(std::span<const std:
     if (first >= end) return tl::unexpected(Exception::IllegalDataAddress);
     end = first + 1;
   } else if (first >= end) {
-    first = 0;  // by the standard an unknown object restarts the stream
+    first = 0;  // the standard restarts the stream for an unknown object
   }
   std::vector<std::uint8_t> answer{kEncapsulatedInterface,
                                    kReadDeviceIdentification,

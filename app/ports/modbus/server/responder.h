@@ -18,8 +18,8 @@ namespace orbwatch::app::modbus {
 /// Outcome of a request. The last two end a TCP connection.
 enum class Outcome : std::uint8_t {
   Answered,
-  Refused,    ///< with an exception
-  Forbidden,  ///< with an exception, because the client may not write
+  Refused,    ///< answered with an exception
+  Forbidden,  ///< refused with an exception, because the client may not write
   NotModbus,  ///< no answer
   NotSent,    ///< the client does not receive, or disconnected
 };

@@ -82,7 +82,7 @@ bool TcpTransport::is_ours(std::span<const std::uint8_t> request) const {
 
 bool TcpTransport::send(std::span<const std::uint8_t> request, std::span<const std::uint8_t> pdu) {
   std::vector<std::uint8_t> answer(request.begin(), request.end() - std::ssize(pdu_of(request)));
-  const std::size_t length = pdu.size() + 1;  // with the unit
+  const std::size_t length = pdu.size() + 1;  // including the unit
   answer[4] = static_cast<std::uint8_t>(length >> 8);
   answer[5] = static_cast<std::uint8_t>(length);
   answer.insert(answer.end(), pdu.begin(), pdu.end());

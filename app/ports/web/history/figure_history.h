@@ -49,7 +49,7 @@ class FigureHistory {
  private:
   struct Track {
     Component component;
-    std::vector<Extremes> steps;  ///< by field, then by place in the ring
+    std::vector<Extremes> steps;  ///< indexed by field, then by place in the ring
   };
 
   bool is_configured(const Component& component) const;

@@ -21,7 +21,7 @@ enum class Passage { Direct, UntrustedProxy, TrustedProxy };
 /// A complete request as received.
 struct Request {
   std::string method;
-  std::string target;  ///< as sent, with the query, in origin-form (RFC 9112, 3.2.1)
+  std::string target;  ///< request target with the query, in origin-form (RFC 9112, 3.2.1)
   std::string path;    ///< decoded, without the query
   Values query;        ///< decoded
   Values headers;
