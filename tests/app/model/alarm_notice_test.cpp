@@ -22,7 +22,7 @@ TEST(EventText, SaysWhatHappenedWhere) {
   notice.recipe = tests::kRecipe;
   EXPECT_EQ(event_text(notice, tests::make_names()),
             "edge: hot_spot_width raised, high alarm, 3.5 mm");
-  notice.recipe = 1;  // whose regions have no names
+  notice.recipe = 1;  // a recipe whose regions have no names
   notice.event.kind = signals::AlarmEventKind::Cleared;
   notice.event.value = signals::kNotValid;
   EXPECT_EQ(event_text(notice, tests::make_names()),

@@ -28,7 +28,7 @@ Command lowest(const CommandInfo& info) {
   return command;
 }
 
-/// Calls `examine` for every argument of every command, with a command that is allowed.
+/// Calls `examine` for every argument of every command, with a valid command.
 template <class Examine>
 void for_each_argument(const Examine& examine) {
   for (const CommandInfo& info : kCommands) {
@@ -39,7 +39,8 @@ void for_each_argument(const Examine& examine) {
   }
 }
 
-/// An argument that must be above this one is as high as it can be.
+/// Checks a command with this value of an argument; an argument that must be above it has its
+/// maximum.
 CommandResult check_with(Command command, std::size_t argument, double value) {
   const ArgumentInfo* const info = &find_command(command.code)->arguments[argument];
   if (info->is_below_next) command.arguments[argument + 1] = info[1].maximum;

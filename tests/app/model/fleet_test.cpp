@@ -21,14 +21,14 @@ ApplianceNotice named(const std::string& name) {
 class FleetTest : public testing::Test {
  protected:
   void hear(const std::string& id, const std::string& name) { fleet.hear(id, named(name), now); }
-  /// Each of them once a second.
+  /// Receives a notice of each once a second.
   void hear_for(seconds duration, const std::vector<std::pair<std::string, std::string>>& ones) {
     for (auto n = seconds(0); n < duration; ++n) {
       for (const auto& [id, name] : ones) hear(id, name);
       now += seconds(1);
     }
   }
-  /// "id", or "(id)" of one that is gone.
+  /// Ids in the list; "(id)" if gone.
   std::vector<std::string> listed() {
     std::vector<std::string> ids;
     for (const auto& entry : fleet.list(now)) {

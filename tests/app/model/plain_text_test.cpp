@@ -24,9 +24,9 @@ TEST(PlainText, HasAQuestionMarkForEachByteThatIsNoUtf8) {
             "a?b"},
            {"\x80", "?"},
            {"\xc0\xaf", "??"},            // '/' in two bytes
-           {"\xe0\x80\xaf", "???"},       // and in three
-           {"\xf0\x80\x80\xaf", "????"},  // and in four
-           {"\xed\xa0\x80", "???"},       // half of a pair
+           {"\xe0\x80\xaf", "???"},       // '/' in three
+           {"\xf0\x80\x80\xaf", "????"},  // '/' in four
+           {"\xed\xa0\x80", "???"},       // half of a surrogate pair
            {"\xf4\x90\x80\x80", "????"},  // beyond the last character
            {"\xe2\x82", "??"},            // cut off
            {"\xe2\x82z", "??z"}}) {

@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The two ends of what a console is connected to; the reader's never waits.
+/// Both ends of a console's output; the reader's end is non-blocking.
 struct Ends {
   hal::FileDescriptor reader, writer;
 
@@ -41,7 +41,7 @@ struct Ends {
     }
     return all;
   }
-  /// Writes until no more is taken, and leaves the end as it was.
+  /// Writes until the end is full, and restores its flags.
   void fill() const {
     const int flags = ::fcntl(writer.get(), F_GETFL);
     ::fcntl(writer.get(), F_SETFL, flags | O_NONBLOCK);

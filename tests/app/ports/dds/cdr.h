@@ -12,8 +12,8 @@ namespace orbwatch::app::tests {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Plain CDR, version 1, little-endian (DDSI-RTPS 2.5, 10.2; OMG CORBA 3.3 part 2, 9.3), written
-/// down by hand: every number at a multiple of its size, strings with their terminating zero.
+/// Plain CDR, version 1, little-endian (DDSI-RTPS 2.5, 10.2; OMG CORBA 3.3 part 2, 9.3), written by
+/// hand: every number at a multiple of its size, strings with their terminating zero.
 class Cdr {
  public:
   template <class T>

@@ -13,10 +13,9 @@
 
 namespace orbwatch::app::tests {
 
-/// A DDS network of the test's own on the loopback interface: two domains of this process that are
-/// one domain on the wire. Sink and reader get one each, so all that they exchange crosses UDP as
-/// it would between two machines, and a tag keeps out every other test.
-/// The sink's side takes no sample above 1 MB.
+/// A private DDS network on the loopback interface: two domains of this process that are one domain
+/// on the wire. Sink and reader get one each, so that all samples cross UDP like between two
+/// machines, and a tag isolates it from other tests. The sink's side accepts no sample above 1 MB.
 class DdsNetwork {
  public:
   static constexpr int kSinkDomain = 1;
@@ -30,15 +29,16 @@ class DdsNetwork {
 
   bool valid() const { return sink_domain_ && reader_domain_; }
 
-  /// Lets the readers' side hear and say nothing until told otherwise, like a hung computer.
+  /// Blocks reception and transmission of the readers' side, like a hung computer, or unblocks
+  /// them.
   void hang_readers(bool hung) const {
     ASSERT_EQ(dds_domain_set_deafmute(reader_domain_.get(), hung, hung, DDS_INFINITY),
               DDS_RETCODE_OK);
   }
 
-  /// Of a domain on this network; `more` stands in <Domain>.
+  /// Configuration of a domain on this network; `more` is inserted into <Domain>.
   static std::string configuration(const std::string& more = "") {
-    // Ports of the domains up to 100 lie below those that the system gives to clients.
+    // Ports of the domains up to 100 are below the ephemeral ports.
     const std::string domain = std::to_string(1 + getpid() % 100);
     return orbwatch::tests::loopback_dds(more,
                                          "<ExternalDomainId>" + domain + "</ExternalDomainId>");
@@ -49,7 +49,7 @@ class DdsNetwork {
   Entity reader_domain_;
 };
 
-/// Repeats `step` until it returns true; false when that took so long that it never will.
+/// Repeats `step` until it returns true; false: not within a generous time limit.
 inline bool eventually(const std::function<bool()>& step) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!step()) {

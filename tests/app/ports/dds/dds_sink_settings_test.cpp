@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
 
-/// What the sink does as its settings say, and when it refuses to.
+/// Effects of the sink's settings, and refused settings.
 namespace orbwatch::app {
 namespace {
 
@@ -78,7 +78,7 @@ TEST_F(DdsSinkSettingsTest, NeedsAPictureAsItsReadersDo) {
   const ImageReader raw("rt/orbwatch/front/image_raw");
   ASSERT_TRUE(eventually([&] { return needs(kFront).rgb; }));
   EXPECT_FALSE(needs(kWide).rgb || needs(kWide).jpeg) << "of another view";
-  // A JPEG that is not due is not needed; whoever did not need the picture does not get it.
+  // A JPEG that is not due is not needed; a topic that did not need the picture does not get it.
   const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
   view->stamp = moment;
   tests::hand_over(sink, view);
@@ -88,7 +88,7 @@ TEST_F(DdsSinkSettingsTest, NeedsAPictureAsItsReadersDo) {
   ASSERT_TRUE(eventually([&] {
     const auto other = make_view(kWide, "wide", 1, kWidth, kHeight);
     other->picture = {};
-    sink.accept(other);  // asked before the reader came
+    sink.accept(other);  // needs() was called before the reader matched
     return of_topic(sink, "rt/orbwatch/wide/image_raw").unread > unread && needs(kWide).rgb;
   }));
 }
@@ -116,7 +116,7 @@ TEST_F(DdsSinkSettingsTest, TheSelectedViewsJpegGoesToBothTopics) {
     return !from_own.empty() && !from_selected.empty();
   }));
   EXPECT_EQ(from_own, from_selected);
-  // From now on both have readers, and no picture is replaced: what is let go of is written soon.
+  // From now on both have readers, and no picture is replaced: a released picture is written soon.
   ASSERT_TRUE(eventually([&] { return view.use_count() == 1; }));
   const auto written = [&](const std::string& topic) { return of_topic(sink, topic).written; };
   const auto own_before = written(own), selected_before = written(selected);
@@ -139,7 +139,7 @@ TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
   const CompressedReader reader(topic);
   const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
   const auto first = view->stamp;
-  // 30 pictures a second of their own clock.
+  // 30 pictures per second by their own stamps.
   std::uint64_t handed_over = 0;
   ASSERT_TRUE(eventually([&] {
     view->stamp = first + handed_over++ * std::chrono::microseconds(33333);
@@ -149,7 +149,7 @@ TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
   const TopicStatistics result = of_topic(sink, topic);
   const std::uint64_t read = handed_over - result.unread;
   EXPECT_NEAR(static_cast<double>(result.limited), read * 2.0 / 3, 2);
-  // Also when the clock is set back.
+  // The rate also holds after the clock is set back.
   for (int i = 0; i < 60; ++i) {
     view->stamp = first - std::chrono::hours(1) + i * std::chrono::microseconds(33333);
     tests::hand_over(sink, view);
@@ -205,7 +205,7 @@ TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
 TEST(DdsSinkStartTest, DisabledSinkDoesNothing) {
   DdsSettings off = settings();
   off.enabled = false;
-  off.domain = -1;  // would be refused
+  off.domain = -1;  // would be refused if enabled
   DdsSink sink(off, {{}, {"front"}, {}}, nullptr);
   EXPECT_TRUE(sink.start());
   const auto view = make_view(kFront, "front", 1, kWidth, kHeight);

@@ -40,8 +40,8 @@ class DdsSinkTest : public testing::Test {
     ASSERT_TRUE(started) << started.error().message;
   }
 
-  /// Hands `view` over again and again until a sample for which `look` returns true has arrived.
-  /// A topic keeps nothing for readers that match later.
+  /// Passes `view` repeatedly until a sample arrives for which `look` returns true. A topic keeps
+  /// no samples for late joiners.
   static bool publish_until(DdsSink& sink, const ViewPtr& view, const ImageReader& reader,
                             const std::function<bool(const ImageMessage&)>& look) {
     return eventually([&] {
@@ -106,7 +106,7 @@ TEST_F(DdsSinkTest, CountsArriveAsMeasuredWithTheStampOfTheColour) {
     EXPECT_EQ(message.step, 320u);
     EXPECT_EQ(message.data._length, view->words.size() * 2);
     EXPECT_EQ(std::memcmp(message.data._buffer, view->words.data(), message.data._length), 0);
-    // Spelt out once, so that the byte order does not rest on memcmp of the same host.
+    // Written out once, so that the byte order does not depend on memcmp on this host.
     const int value = message.data._buffer[2] | message.data._buffer[3] << 8;
     EXPECT_EQ(value, *view->radiometric.at(1, 0));
     stamp = message.header.stamp;
@@ -169,7 +169,7 @@ TEST_F(DdsSinkTest, SelectedTopicFollowsTheStatus) {
   const ImageReader reader(topic);
   const std::array views{make_view(kFront, "front", 1, kWidth, kHeight),
                          make_view(kWide, "wide", 1, kWidth / 2, kHeight / 2)};
-  // The sink has dealt with a view when it has let go of it.
+  // The sink has processed a view when it has released it.
   const auto idle = [&] { return views[0].use_count() == 1 && views[1].use_count() == 1; };
   Status status;
   for (const std::size_t selected : {kWide, kFront, kWide}) {
@@ -181,7 +181,7 @@ TEST_F(DdsSinkTest, SelectedTopicFollowsTheStatus) {
              message.width == static_cast<std::uint32_t>(shown.picture.width);
     }));
     ASSERT_TRUE(eventually(idle));
-    // From here on nothing of the other view may come.
+    // From here on no sample of the other view may arrive.
     const auto written = of_topic(sink_, topic).written;
     for (int i = 0; i < 3; ++i) {
       tests::hand_over(sink_, views[1 - selected]);
@@ -211,7 +211,7 @@ TEST_F(DdsSinkTest, HungReadersCostDropsThatAreCounted) {
   const ImageReader reader("rt/orbwatch/front/image_raw");
   const auto first = make_view(kFront, "front", 1, kWidth, kHeight);
   ASSERT_TRUE(publish_until_any(first, reader));
-  // The sink is idle when it has let go of the view.
+  // The sink is idle when it has released the view.
   ASSERT_TRUE(eventually([&] { return first.use_count() == 1; }));
   reader.drain();
 
@@ -331,7 +331,7 @@ TEST_F(DdsSinkTest, DiagnosticsComeOnceASecond) {
     return !names.empty();
   }));
   EXPECT_THAT(names, testing::Contains("orbwatch: camera thermal"));
-  // A whole second lies between the next two, and whatever came in it made no other.
+  // The next two are a full second apart, and no other one is sent in between.
   const auto messages = [&] {
     const TopicStatistics topic = of_topic(sink_, kDiagnosticsTopic);
     return topic.written + topic.unread;
@@ -392,11 +392,11 @@ TEST_F(DdsSinkTest, CamerasPicturesAreSentWhileSomebodyReads) {
   sink_.accept_frames(set);
   EXPECT_EQ(sum(of_topic(sink_, "rt/orbwatch/thermal/ball/image_raw")), before)
       << "it was sent already";
-  sink_.stop();  // until then its thread may read the samples
+  sink_.stop();  // its thread may use the samples until then
 }
 
 /// Readers of a picture's two topics in the sink's own domain, which are called inside its writes
-/// and stay there until their end.
+/// and block them until their end.
 class HoldingReaders {
  public:
   explicit HoldingReaders(const std::string& raw)
@@ -408,7 +408,7 @@ class HoldingReaders {
     ended_.notify_all();
   }
 
-  /// Writes that wait here.
+  /// Number of blocked writes.
   int held() const { return held_; }
 
  private:
@@ -438,8 +438,8 @@ class HoldingReaders {
 
 class BlockedWrites : public DdsSinkTest, public testing::WithParamInterface<int> {};
 
-/// With a thread for each of both topics no buffer is held. With one thread the other topic's
-/// picture waits for it in the one buffer that is reserved for that topic.
+/// With a thread for each topic no buffer is held. With one thread the other topic's picture waits
+/// in the one buffer reserved for that topic.
 TEST_P(BlockedWrites, HoldNoBufferOfACameraThemselves) {
   const int threads = GetParam();
   DdsSink sink(settings(), tests::make_names(), nullptr, network_addresses,

@@ -19,7 +19,7 @@ namespace {
 
 const std::string kExamples = ORBWATCH_SOURCE_DIR "/app/ports/dds/examples";
 
-/// What a shell says to a command, and whether it succeeded.
+/// Output of a shell command, and whether it succeeded.
 std::pair<std::string, bool> run(const std::string& command) {
   FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   std::string output;

@@ -23,7 +23,7 @@ inline std::vector<ComponentMessage> of_kind(const ProcessStateMessage& message,
   return found;
 }
 
-/// A figure by its name; fails the test when there is none.
+/// A figure by its name; fails the test if it is missing.
 inline FigureMessage figure(const FigureSequence& figures, std::string_view name) {
   for (const FigureMessage& figure : std::span(figures._buffer, figures._length)) {
     if (figure.name == name) return figure;

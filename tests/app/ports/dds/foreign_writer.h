@@ -11,7 +11,7 @@
 
 namespace orbwatch::app::tests {
 
-/// Any program on the network: writes what it is told, sound or not, and loses none of it.
+/// Any program on the network: writes given samples, valid or not, without losses.
 class ForeignWriter {
  public:
   ForeignWriter(int domain, const dds_topic_descriptor_t& type, const std::string& topic, Qos qos,
@@ -33,7 +33,7 @@ class ForeignWriter {
   void write(const void* sample) const {
     EXPECT_EQ(dds_write(writer_.get(), sample), DDS_RETCODE_OK);
   }
-  /// Whether every reader has everything.
+  /// Waits until every reader has all samples; returns whether that succeeded.
   bool flush() const { return dds_wait_for_acks(writer_.get(), DDS_SECS(60)) == DDS_RETCODE_OK; }
 
  private:

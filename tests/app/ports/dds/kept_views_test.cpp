@@ -19,7 +19,7 @@ namespace {
 
 using tests::eventually;
 
-/// A sink whose pictures wait, since the thread that writes them is kept busy.
+/// A sink whose pictures wait, because the thread that writes them is blocked.
 class KeptViewsTest : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(network_.valid()); }
@@ -44,7 +44,7 @@ class KeptViewsTest : public testing::Test {
     may_go_on_ = true;
     may_go_on_.notify_all();
   }
-  /// Hands over another view, a moment after the one before.
+  /// Passes a new view with a later stamp.
   void publish(std::size_t index) {
     auto view = tests::make_view(index, index == kFront ? "front" : "wide", 1, kWidth, kHeight,
                                  index == kFront);
@@ -52,7 +52,7 @@ class KeptViewsTest : public testing::Test {
     views_[index].push_back(view);
     tests::hand_over(*sink_, view);
   }
-  /// Of those handed over, the ones that are still held.
+  /// Number of passed views that are still held.
   std::size_t kept(std::size_t index) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(views_[index], [](const auto& view) { return !view.expired(); }));

@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/dds_network.h"
 #include "tests/app/ports/dds/topic_reader.h"
 
-/// What tests of the sink send, and how they read its topics and counts.
+/// Test data for the sink, and readers of its topics and counts.
 namespace orbwatch::app {
 
 inline constexpr int kWidth = 160;

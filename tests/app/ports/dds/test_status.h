@@ -12,7 +12,7 @@ inline StatusNames make_names() {
   return {{"colour", "thermal"}, {"front", "wide"}, {{kRecipe, {"weld", "edge"}}}};
 }
 
-/// Numbers of which no two are equal, and which double holds exactly.
+/// Distinct numbers that a double represents exactly.
 class Numbers {
  public:
   std::uint64_t whole() { return next_++; }
@@ -54,7 +54,7 @@ inline AlarmStatus make_alarm(std::size_t index, Numbers& numbers) {
   return alarm;
 }
 
-/// A status in which no two figures are equal, with the names of make_names().
+/// A status whose figures all differ, with the names of make_names().
 inline Status make_status() {
   Numbers numbers;
   Status status;

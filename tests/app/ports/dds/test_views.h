@@ -8,8 +8,8 @@
 
 namespace orbwatch::app::tests {
 
-/// A view with pixels that differ from each other and from frame set to frame set, 8 bit and 16
-/// bit; `padding` samples stand after each row.
+/// A view whose pixels differ from each other and between frame sets, 8 bits and 16 bits; `padding`
+/// samples follow each row.
 inline std::shared_ptr<View> make_view(std::size_t index, std::string_view name,
                                        std::uint64_t frame_set, int width, int height,
                                        bool radiometric = false, int padding = 0) {

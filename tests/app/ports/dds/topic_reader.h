@@ -15,7 +15,7 @@
 
 namespace orbwatch::app::tests {
 
-/// A plain reader of one topic, on the readers' side of the network unless told otherwise.
+/// A plain reader of one topic, by default on the readers' side of the network.
 template <class Message>
 class TopicReader {
  public:
@@ -34,10 +34,10 @@ class TopicReader {
 
   dds_entity_t get() const { return reader_.get(); }
 
-  /// Waits a moment for data; whether there is some.
+  /// Waits briefly; returns whether there is data.
   bool wait() const { return dds_waitset_wait(waitset_.get(), nullptr, 0, DDS_MSECS(20)) > 0; }
 
-  /// Waits a moment; shows the next sample to `look` if one came.
+  /// Waits briefly; passes the next sample to `look` if one arrived.
   bool take(const Look& look) const {
     if (!wait()) return false;
     void* sample = nullptr;
@@ -52,7 +52,7 @@ class TopicReader {
     return valid;
   }
 
-  /// Takes what is there until a moment passes without anything.
+  /// Takes samples until none arrives for a moment.
   void drain() const {
     while (take([](const Message&) {})) {
     }

@@ -11,15 +11,15 @@
 #include "tests/app/ports/dds/cdr.h"
 #include "tests/app/ports/dds/topic_reader.h"
 
-/// What other DDS implementations see of a topic: its announcement and the bytes of a sample.
+/// Wire data of a topic for other DDS implementations: its announcement and the bytes of a sample.
 namespace orbwatch::app::tests {
 
 struct Sample {
   Bytes header;   ///< encapsulation: representation and options
-  Bytes payload;  ///< without the padding that the options tell of
+  Bytes payload;  ///< without the padding stated in the options
 };
 
-/// The next sample as it came from the network, if one is there.
+/// The next sample in wire format, if there is one.
 template <class Message>
 bool take_bytes(const TopicReader<Message>& reader, Sample& sample) {
   if (!reader.wait()) return false;
@@ -48,7 +48,7 @@ struct Announcement {
   std::vector<dds_data_representation_id_t> representations;
 };
 
-/// What the writer that `reader` matches told the network about itself.
+/// Reads the announcement of the writer that `reader` has matched.
 inline bool announcement(dds_entity_t reader, Announcement& told) {
   dds_instance_handle_t writer = 0;
   if (dds_get_matched_publications(reader, &writer, 1) < 1) return false;

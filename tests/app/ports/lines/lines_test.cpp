@@ -18,11 +18,11 @@ LineSettings line(const std::string& name, LineUse use, const std::string& wire)
   settings.use = use;
   settings.back_end = LineKind::Simulated;
   settings.wire.address.name = wire;
-  settings.watchdog.timeout = std::chrono::minutes(1);  // the test reports seldom
+  settings.watchdog.timeout = std::chrono::minutes(1);  // the test reports rarely
   return settings;
 }
 
-/// Both outputs that say how the pipeline is, wired to inputs.
+/// Both outputs for the pipeline's state, wired to inputs.
 class StatusLines : public testing::Test {
  protected:
   StatusLines() {
@@ -45,7 +45,7 @@ class StatusLines : public testing::Test {
     alarmed.alarms[1].alarm = {state, level, level, false};
     return alarmed;
   }
-  /// Reports a status until both lines are as they should be.
+  /// Reports a status until both lines have the expected state.
   bool becomes(const Status& status, bool ok, bool no_alarm) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     const auto is = [&](std::size_t input, bool active) {
@@ -95,7 +95,7 @@ TEST_F(StatusLines, AlarmsBeyondTheirCountAreNone) {
   EXPECT_TRUE(becomes(left, true, true));
 }
 
-/// The owner hangs in something else.
+/// Calls make_safe() while the owner is blocked elsewhere.
 TEST_F(StatusLines, AreMadeSafeByAnotherThread) {
   EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
   std::thread([this] { lines->make_safe(); }).join();
@@ -120,7 +120,7 @@ TEST(MissingLines, AreFaultsUntilTheyCome) {
   lines.stop();
 }
 
-/// A camera that does not answer its trigger until it is allowed to.
+/// A camera that does not answer its trigger until the test permits it.
 class SlowCamera : public hal::Camera {
  public:
   SlowCamera() : Camera({"slow", "slow", "test"}) {}

@@ -14,7 +14,7 @@ using orbwatch::tests::begin_crowd;
 using orbwatch::tests::Returning;
 
 const Bytes kRequest = frame({4, 0, 0, 0, 96});
-/// A write that is refused, but as long as one may be.
+/// A refused write of the largest length.
 const Bytes kLongest = frame(Bytes(253, 16));
 
 struct Drip {
@@ -60,7 +60,7 @@ struct SendNoise {
   void operator()(Returning& client) {
     Bytes noise(1 + random() % 253);
     for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
-    // Every other one has a right header, so that its content gets further.
+    // Every second frame has a valid header, so that its content is parsed.
     const bool is_framed = random() % 2 == 0;
     if (is_framed) noise[0] &= 0x1f;
     client.listen();
@@ -68,7 +68,7 @@ struct SendNoise {
   }
 };
 
-/// A burst whenever all earlier requests were answered.
+/// Sends a burst whenever all earlier requests were answered.
 struct AskWithoutPause {
   static constexpr long kRequests = 20;
   static constexpr long kAnswers = kRequests * (9 + 2 * 96);

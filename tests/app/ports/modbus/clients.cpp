@@ -195,7 +195,7 @@ Bytes rtu_frame(int unit, const Bytes& pdu) {
   Bytes bytes(1 + pdu.size());
   bytes[0] = static_cast<std::uint8_t>(unit);
   std::ranges::copy(pdu, bytes.begin() + 1);
-  // As in Modbus over Serial Line V1.02, 6.2.2.
+  // Checksum by Modbus over Serial Line V1.02, 6.2.2.
   unsigned checksum = 0xffff;
   for (const unsigned byte : bytes) {
     checksum ^= byte;

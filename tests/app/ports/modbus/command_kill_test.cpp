@@ -24,8 +24,7 @@ using tests::kArguments;
 using tests::Plc;
 using tests::Words;
 
-/// Every command has an argument of its own, by which the journal shows how often it was carried
-/// out.
+/// Every command has a unique argument, by which the journal shows how often it was executed.
 class CyclicPlc {
  public:
   /// Cycles until the connection is lost, or a command of at least this argument is acknowledged.
@@ -35,11 +34,12 @@ class CyclicPlc {
       while (argument_ <= last && cycle(plc)) {
       }
     } catch (const std::exception&) {
-      // The server was killed before it accepted.
+      // The server was killed before it accepted the connection.
     }
   }
 
-  /// As its own restart: it forgets its block, and continues as the handbook says.
+  /// Simulates a restart of the PLC: it forgets its block, and continues by the rules of the
+  /// handbook.
   void restart() {
     is_new_ = true;
     ++argument_;
@@ -65,29 +65,30 @@ class CyclicPlc {
     return true;
   }
 
-  std::map<int, CommandResult> results_;  ///< by argument, as acknowledged
+  std::map<int, CommandResult> results_;  ///< acknowledged results by argument
   int argument_ = 0;
   std::uint16_t sequence_ = 65500;  // wraps soon
   bool is_new_ = false;
 };
 
-/// How a server ends.
+/// End of a server.
 struct End {
   int signal = SIGKILL;
-  std::chrono::microseconds after{};  ///< it runs, or was started
+  std::chrono::microseconds after{};  ///< delay after it runs, or was started
   bool is_at_start = false;
 };
 
 class CommandKill : public testing::Test {
  protected:
-  /// Runs the server to its end, or without one until the PLC's commands up to `last` are answered.
+  /// Runs the server to its end, or without an end until the PLC's commands up to `last` are
+  /// answered.
   void run(CyclicPlc& plc, const std::optional<End>& end, int last) {
     Subprocess server({ORBWATCH_KILLED_APPLIANCE, folder_ / "state", folder_ / "journal"},
                       folder_ / "output");
     std::jthread killer;
     const auto arm = [&] {
       killer = std::jthread([pid = server.pid(), end] {
-        std::this_thread::sleep_for(end->after);  // the moment is what the test is about
+        std::this_thread::sleep_for(end->after);  // the moment is the subject of the test
         ::kill(pid, end->signal);
       });
     };

@@ -1,4 +1,4 @@
-/// What a PLC that writes its block again and again sees over restarts of the server.
+/// Commands of a PLC that writes its block cyclically, across restarts of the server.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ constexpr auto kNotCarriedOut = static_cast<std::uint16_t>(CommandResult::NotCar
 
 class CommandRestart : public testing::Test {
  protected:
-  /// A server whose record is in `folder`; the one before is stopped.
+  /// Starts a server whose record is in `folder`; stops the previous one.
   Plc start(const std::filesystem::path& folder) {
     sink_.reset();
     sink_.emplace(
@@ -70,7 +70,7 @@ TEST_F(CommandRestart, TheStandingBlockRepeatsNothing) {
       ASSERT_EQ(again.write(kArguments, select_view(5, 700)), 0);
     EXPECT_EQ(answer(again), (Words{700, 0, 1}));
   }
-  sink_->stop();  // carries out what waits
+  sink_->stop();  // executes waiting commands
   EXPECT_THAT(views(), ElementsAre(5));
 }
 
@@ -86,7 +86,7 @@ TEST_F(CommandRestart, WhatWasWrittenMeanwhileIsCarriedOut) {
 TEST_F(CommandRestart, OneThatWasCutOffIsInterrupted) {
   const TemporaryFolder then;
   on_command_ = [&] {
-    // What the disk holds if the power fails now.
+    // Copies the disk's content as after a power failure now.
     std::filesystem::copy(folder_.path(), then.path(), std::filesystem::copy_options::recursive);
   };
   Plc plc = start(folder_.path());
@@ -125,7 +125,7 @@ TEST_F(CommandRestart, NoOtherAnswerWaitsForACommand) {
   Plc reader(sink_->port());
   EXPECT_EQ(reader.read_input(0, 100), 0);
   EXPECT_EQ(answer(plc), (Words{0, 0, 0})) << "nothing is acknowledged yet";
-  // Of what is written over the command, the last is next.
+  // The last command written over the present one is executed next.
   ASSERT_EQ(plc.write(kArguments, select_view(6, 701)), 0);
   ASSERT_EQ(plc.write(kArguments, select_view(7, 702)), 0);
   finished.count_down();

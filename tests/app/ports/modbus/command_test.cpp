@@ -28,7 +28,7 @@ const int kHeartbeat = address_of("plc_heartbeat");
 const int kCommand = address_of("command");
 const int kHoldingCount = address_of("last_command") + 1;
 
-/// A server whose commands are written down.
+/// A server that records its commands.
 class ModbusCommand : public testing::Test {
  protected:
   void SetUp() override {
@@ -84,12 +84,12 @@ TEST_F(ModbusCommand, IsCarriedOutOncePerSequence) {
     ASSERT_EQ(plc.command(kArguments, select_view(5, 7)), 0);
     ASSERT_EQ(plc.command(kSequence, {7}), 0);
   }
-  ASSERT_EQ(plc.write(kArguments, {0, 4}), 0);  // without a new sequence nothing happens
+  ASSERT_EQ(plc.write(kArguments, {0, 4}), 0);  // has no effect without a new sequence
   Plc(sink_.port()).command(kSequence, {7});
   EXPECT_THAT(arguments(), ElementsAre(5));
   ASSERT_EQ(plc.command(kSequence, {8}), 0);
   EXPECT_THAT(arguments(), ElementsAre(5, 4));
-  ASSERT_EQ(plc.command(kSequence, {0}), 0);  // wraps: 0 is a sequence like any other
+  ASSERT_EQ(plc.command(kSequence, {0}), 0);  // wraps: 0 is a valid sequence
   EXPECT_THAT(arguments(), ElementsAre(5, 4, 4));
 }
 
@@ -121,7 +121,7 @@ TEST(CommandRegisters, TheEndsOfEveryArgumentsRangePassAndNoMore) {
     };
     for (std::size_t i = 0; i < info.argument_count(); ++i) set_to(i, info.arguments[i].minimum);
     EXPECT_EQ(check(modbus::command_in(registers)), CommandResult::Done) << info.name;
-    // From the last one on, which then leaves room for one that must be below it.
+    // Starts with the last argument, which then leaves room for one that must be below it.
     for (std::size_t i = info.argument_count(); i-- > 0;) {
       set_to(i, info.arguments[i].maximum);
       EXPECT_EQ(check(modbus::command_in(registers)), CommandResult::Done) << info.name << i;
@@ -186,10 +186,10 @@ TEST_F(ModbusCommand, ARefusedWriteChangesNothing) {
   EXPECT_EQ(plc.write(kArguments + 1, {5, 1, 1}), 2);  // the other half
   EXPECT_EQ(plc.write(kHeartbeat - 1, {5, 1}), 2);     // the lower half of result_acknowledged
   EXPECT_EQ(plc.mask_write(kArguments, 0, 1), 2);
-  EXPECT_EQ(plc.write(kArguments, too_long), 2);  // runs into the acknowledgement
+  EXPECT_EQ(plc.write(kArguments, too_long), 2);  // overlaps the acknowledgement
   EXPECT_EQ(plc.write(kAcknowledged, 1), 2);
   EXPECT_EQ(plc.write_and_read(kArguments, select_view(5, 1), 4999, 1),
-            2);  // nothing to read there
+            2);  // not readable
   EXPECT_EQ(plc.write_and_read(kArguments, unknown, 0, 1), 3);
   EXPECT_TRUE(arguments().empty());
   ASSERT_EQ(plc.read_holding(0, kHoldingCount), 0);
@@ -230,7 +230,7 @@ TEST(ModbusPlcHeartbeat, WithoutItTheProcessIsTakenForInactive) {
   };
   ASSERT_EQ(plc.write(kArguments, {0, 1}), 0);
   std::uint16_t heartbeat = 0;
-  // One write brings both, so there is no moment between them.
+  // One write sets both, so there is no moment between them.
   const auto beat_and_say_active = [&](std::uint16_t sequence) {
     ASSERT_EQ(plc.write(kHeartbeat, {++heartbeat, 11, sequence}), 0);
   };
@@ -291,7 +291,7 @@ TEST(ModbusWriters, SaysWhoTheyAre) {
   EXPECT_EQ(commanders(settings), "");
 }
 
-/// A journal that is stalled: the PLC must not wait for it.
+/// A stalled journal must not delay the PLC.
 TEST(ModbusWriters, AreServedWhileNobodyReadsTheLogOfARefusal) {
   std::mutex reading;
   std::unique_lock unread(reading);
@@ -333,7 +333,7 @@ TEST(ModbusWriters, OthersMayOnlyRead) {
   RawClient again(sink.port());
   ASSERT_TRUE(again.send(tests::frame(write)));
   EXPECT_EQ(tests::receive_pdu(again), (tests::Bytes{0x90, 1}));
-  // Once, and as the site file wants it.
+  // The log line appears once, in the syntax of the site file.
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "orbwatch: modbus: refuses to let 127.0.0.1 write; if it may, the line for [modbus] of "
             "the site file is writers = [\"192.0.2.7\", \"127.0.0.2\", \"127.0.0.1\"]\n");

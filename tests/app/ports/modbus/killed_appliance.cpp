@@ -1,6 +1,6 @@
 /// killed_appliance FOLDER JOURNAL: a Modbus server with its record of commands in FOLDER. Prints
-/// its port. Appends the first argument of each command that it carries out to JOURNAL. Ends by
-/// SIGTERM, if nothing kills it before.
+/// its port. Appends the first argument of each command that it executes to JOURNAL. Ends by
+/// SIGTERM, unless killed before.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace orbwatch::app;
 
-/// As long as a command may take that moves something.
+/// Duration of a command that moves something.
 constexpr std::chrono::milliseconds kWork{1};
 
 CommandResult note(int journal, const Command& command) {

@@ -17,7 +17,7 @@ using tests::address_of;
 
 constexpr const char* kMbpoll = "/usr/bin/mbpoll";
 
-/// How a run of mbpoll ended, and what it read: by address.
+/// Exit code of mbpoll and the values read, by address.
 struct Polled {
   int exit_code = -1;
   std::string text;
@@ -40,7 +40,7 @@ Polled run(const std::string& command) {
   return polled;
 }
 
-/// A server and mbpoll, a client that shares no code with ours beyond libmodbus' encoding.
+/// A server and mbpoll, a client that shares only libmodbus' encoding with our code.
 class Mbpoll : public testing::Test {
  protected:
   void SetUp() override {

@@ -101,7 +101,7 @@ TEST(ModbusSink, TheAgeIsOfTheMomentOfTheAnswer) {
   const std::uint32_t first = plc.u32(0);
   EXPECT_GE(first, before.count());
   EXPECT_LE(first, age().count());
-  // It grows although the server gets no status.
+  // The age increases although the server gets no status.
   EXPECT_TRUE(
       eventually([&] { return plc.read_input(register_of_age, 2) == 0 && plc.u32(0) > first; }));
 }
@@ -120,7 +120,7 @@ TEST(ModbusSink, TheUtcStampOfAFrameSetIsTrueAndStays) {
   ASSERT_EQ(plc.read_input(utc_seconds, 4), 0);
   const double seconds = plc.u32(0) + plc.u32(2) * 1e-6;
   EXPECT_NEAR(seconds, std::chrono::duration<double>(utc).count(), 0.5);
-  // Converted anew for each status it would differ by a microsecond now and then.
+  // A conversion for each status would occasionally differ by a microsecond.
   for (int set = 2; set < 300; ++set) {
     status.frame_set = static_cast<std::uint64_t>(set);
     status.stamp = hal::Clock::now();
@@ -152,7 +152,7 @@ TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
   EXPECT_EQ(plc.words[place("system_state")], 3);
   // Fault, stale, process active, result available.
   EXPECT_EQ(plc.u32(place("status_bits")), 0b1011'0100U);
-  EXPECT_EQ(plc.u32(place("measurement_bits")), 0U);           // whether cameras deliver is unknown
+  EXPECT_EQ(plc.u32(place("measurement_bits")), 0U);           // the cameras' state is unknown
   EXPECT_EQ(plc.u32(place("fault_bits")) & 1, 1U);             // pipeline silent
   EXPECT_EQ(plc.u32(place("system_frame_set")), 0x80010203U);  // still the newest one
   ASSERT_EQ(plc.read_input(address_of("region_0_result"), 124), 0);
@@ -169,12 +169,12 @@ TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
   EXPECT_EQ(plc.i32(in_region("hot_spot_yaw")), -12346);
 }
 
-/// A code in the signal's range that follows from the number of the frame set.
+/// A code in the signal's range, computed from the number of the frame set.
 std::uint32_t code_of(std::uint32_t number, const signals::SignalInfo& signal) {
   return number % static_cast<std::uint32_t>(signal.maximum / signal.scale);
 }
 
-/// Every figure follows from the number of the frame set.
+/// A status whose figures are computed from the number of the frame set.
 Status status_of(std::uint32_t number) {
   Status status;
   status.frame_set = number;
@@ -249,7 +249,7 @@ TEST(ModbusSink, CountsWhatItServes) {
   ASSERT_EQ(plc.read_input(5000, 1), 2);
   ASSERT_EQ(plc.read_input(address_of("modbus_answered"), 8), 0);
   const auto place = [](const char* name) { return place_of(name, "modbus_answered"); };
-  EXPECT_EQ(plc.u32(place("modbus_answered")), 3U);  // before this request
+  EXPECT_EQ(plc.u32(place("modbus_answered")), 3U);  // requests before this one
   EXPECT_EQ(plc.u32(place("modbus_refused")), 1U);
   EXPECT_EQ(plc.u32(place("modbus_dropped")), 0U);
   EXPECT_EQ(plc.u32(place("modbus_connections")), 1U);
@@ -292,7 +292,7 @@ TEST(ModbusSink, NamesThePortThatIsInUse) {
   EXPECT_THAT(error, HasSubstr("127.0.0.1 port " + std::to_string(first.port())));
   EXPECT_THAT(error, HasSubstr("already in use"));
   EXPECT_THAT(error, HasSubstr("another port"));
-  // The first one is not disturbed, and the port is free again once it stops.
+  // The first server is not disturbed, and the port is free after its stop.
   EXPECT_EQ(Plc(first.port()).read_input(0, 1), 0);
   first.stop();
   EXPECT_EQ(start_error(settings), "");

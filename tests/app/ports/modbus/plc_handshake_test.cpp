@@ -19,7 +19,7 @@ constexpr auto kTimeout = milliseconds(500);
 constexpr auto kStart = hal::TimePoint{} + std::chrono::hours(5);
 constexpr std::uint16_t kSetProcessActive = 11;
 
-/// A PLC on a clock that stands until the test moves it.
+/// A PLC with a clock that only the test advances.
 class PlcHandshakeTest : public testing::Test {
  protected:
   void write(int address, std::vector<std::uint16_t> values) {
@@ -59,7 +59,7 @@ class PlcHandshakeTest : public testing::Test {
 };
 
 TEST_F(PlcHandshakeTest, LivesWhileItsHeartbeatChangesInTime) {
-  EXPECT_FALSE(status().alive);  // not a word yet
+  EXPECT_FALSE(status().alive);  // no heartbeat yet
   EXPECT_FALSE(status().silent);
   EXPECT_EQ(status().heartbeat, hal::TimePoint{});
   beat();
@@ -67,7 +67,7 @@ TEST_F(PlcHandshakeTest, LivesWhileItsHeartbeatChangesInTime) {
   advance(kTimeout);
   EXPECT_TRUE(status().alive);
   EXPECT_EQ(now_ - status().heartbeat, kTimeout);
-  write(heartbeat_register_, {heartbeat_});  // the same value is no sign of life
+  write(heartbeat_register_, {heartbeat_});  // the same value does not count as a heartbeat
   advance(milliseconds(1));
   EXPECT_FALSE(status().alive);
   EXPECT_TRUE(status().silent);

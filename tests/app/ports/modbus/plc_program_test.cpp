@@ -16,8 +16,8 @@ namespace {
 
 using orbwatch::tests::Subprocess;
 
-/// The status of result n, reported while it is the newest one. Every figure follows from n and
-/// from the region.
+/// The status of result n, reported while it is the newest one. Every figure is computed from n and
+/// the region.
 Status status_of(std::uint64_t n) {
   Status status;
   status.result = status.trigger = n;
@@ -37,8 +37,8 @@ Status status_of(std::uint64_t n) {
   return status;
 }
 
-/// Stands in for the pipeline: a result for each trigger, on a thread of its own, and frame sets
-/// without one in between.
+/// Replaces the pipeline: a result for each trigger, on a separate thread, and frame sets without a
+/// result in between.
 class Part : public testing::Test {
  protected:
   void SetUp() override {
@@ -65,7 +65,7 @@ class Part : public testing::Test {
       lock.unlock();
       const Status status = status_of(n);
       sink_.accept(status);
-      Status later = status;  // is no result
+      Status later = status;  // is not a result
       later.trigger = 0;
       for (int i = 0; i < 2; ++i) {
         ++later.frame_set;
@@ -77,7 +77,7 @@ class Part : public testing::Test {
     }
   }
 
-  /// What the PLC counted.
+  /// Counts of the PLC.
   struct Counts {
     int triggered = -1, parts = -1, lost = -1, again = -1;
   };

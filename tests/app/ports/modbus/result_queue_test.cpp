@@ -74,7 +74,7 @@ TEST(ResultQueue, RefusesTheNewestWhenFullAndSaysSoUntilItIsEmpty) {
   }
   EXPECT_FALSE(queue.status().overrun);
   EXPECT_EQ(queue.status().overruns, 2U);
-  queue.push(result(11));  // the gap shows which were refused
+  queue.push(result(11));  // the gap shows the refused ones
   EXPECT_EQ(queue.oldest().status.result, 11U);
   EXPECT_FALSE(queue.status().overrun);
 }

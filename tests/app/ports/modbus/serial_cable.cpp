@@ -18,7 +18,7 @@ using orbwatch::tests::require;
 
 constexpr std::chrono::milliseconds kCableGuard = std::chrono::minutes(1);
 
-/// Nothing is echoed or translated.
+/// Disables echo and translation.
 void make_raw(int terminal) {
   termios settings{};
   require(::tcgetattr(terminal, &settings) == 0);
@@ -26,7 +26,7 @@ void make_raw(int terminal) {
   require(::tcsetattr(terminal, TCSANOW, &settings) == 0);
 }
 
-/// Waits until the file can be read or written; false when it takes longer.
+/// Waits until the file can be read or written; false: not in time.
 bool wait_for(int file, short what, std::chrono::milliseconds longest = kCableGuard) {
   pollfd wait{file, what, 0};
   return ::poll(&wait, 1, static_cast<int>(longest.count())) > 0;
@@ -76,7 +76,7 @@ void SerialCable::unplug() {
 
 void SerialCable::stop_carrying() {
   if (!carrier_.joinable()) return;
-  // The count of a counter that nobody else writes is neither full nor empty here.
+  // Cannot fail: the counter has no other writer.
   ::eventfd_write(stop_.get(), 1);
   carrier_.join();
   eventfd_t told = 0;
@@ -94,7 +94,7 @@ void SerialCable::carry() {
       if (files[from].revents == 0) continue;
       const ssize_t count = ::read(ports_[from].get(), bytes.data(), bytes.size());
       require(count > 0);
-      // As on a wire: bytes that are not read in time are lost.
+      // Bytes that are not read in time are lost, like on a wire.
       pollfd to{ports_[1 - from].get(), POLLOUT, 0};
       if (::poll(&to, 1, 0) <= 0) continue;
       require(::write(to.fd, bytes.data(), static_cast<std::size_t>(count)) > 0);

@@ -13,7 +13,7 @@
 namespace orbwatch::app::tests {
 
 /// Two serial ports and the cable between them, by pseudo-terminals. Each end has a path that stays
-/// the same when the cable is plugged in anew, as /dev/serial/by-id has. They have no parity.
+/// the same when the cable is plugged in again, like in /dev/serial/by-id. They have no parity.
 class SerialCable {
  public:
   SerialCable();
@@ -24,7 +24,7 @@ class SerialCable {
   std::string device() const { return folder_ / "device"; }
   std::string master() const { return folder_ / "master"; }
 
-  /// Removes both ends: an open one hangs up, none can be opened.
+  /// Removes both ends: an open one hangs up, and opening fails.
   void unplug();
   void plug_in();
 
@@ -39,14 +39,14 @@ class SerialCable {
   std::thread carrier_;
 };
 
-/// Bytes over a serial line, right or wrong.
+/// A master that sends any bytes over a serial line, valid or not.
 class RawMaster {
  public:
   explicit RawMaster(const std::string& path);
 
-  /// Waits while the line is full.
+  /// Sends bytes; waits while the line is full.
   void send(const Bytes& bytes);
-  /// Exactly so many bytes, or fewer when one keeps it waiting longer than that.
+  /// Receives `count` bytes, or fewer if one does not arrive within `longest`.
   Bytes receive(std::size_t count, std::chrono::milliseconds longest = std::chrono::minutes(1));
 
  private:

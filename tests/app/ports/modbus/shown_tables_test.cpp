@@ -6,7 +6,7 @@
 #include "app/ports/modbus/modbus_sink.h"
 #include "tests/app/ports/modbus/clients.h"
 
-/// What the page shows of Modbus is what a PLC reads.
+/// Tests that the page shows the values that a PLC reads.
 namespace orbwatch::app {
 namespace {
 
@@ -22,7 +22,7 @@ const InterfaceTable& named(const std::vector<InterfaceTable>& tables, const std
   return *found;
 }
 
-/// By the column `key`, what stands in the column `value`.
+/// Maps the column `key` to the column `value`.
 std::map<std::string, double> numbers(const InterfaceTable& table, const std::string& key,
                                       const std::string& value) {
   const auto place = [&table](const std::string& column) {

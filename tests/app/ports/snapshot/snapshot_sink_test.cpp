@@ -28,7 +28,7 @@ constexpr int kWidth = 37, kHeight = 21;
 
 enum class Measured { None, Luminance, Radiometric };
 
-/// A view no two pixels of which are alike, and no two moments.
+/// A view whose pixels all differ, also between frame sets.
 ViewPtr view(std::size_t index, std::uint64_t frame_set, Measured measured = Measured::None,
              hal::TimePoint stamp = hal::Clock::now()) {
   static const char* const kNames[] = {"room", "process", "door"};
@@ -72,7 +72,7 @@ class SnapshotSinkTest : public testing::Test {
     sink->accept(status);
   }
   CommandResult ask(std::size_t index) { return sink->request(index); }
-  /// Asks for a view, hands it over and waits until it is on the disk.
+  /// Requests a view, passes it and waits until it is on the disk.
   void take(const ViewPtr& picture) {
     const std::uint64_t before = sink->written();
     ASSERT_EQ(ask(picture->index), CommandResult::Done);
@@ -94,7 +94,7 @@ class SnapshotSinkTest : public testing::Test {
     std::ranges::sort(names);
     return names;
   }
-  /// The one file whose name has this part, as OpenCV reads it.
+  /// The only file whose name has this part, read by OpenCV.
   cv::Mat picture(const std::string& part) const {
     for (const std::string& name : files()) {
       if (name.find(part) == std::string::npos) continue;
@@ -258,8 +258,8 @@ TEST_F(SnapshotSinkTest, KeepsWhatItJustWroteWhenTheClockWasPutBack) {
   EXPECT_FALSE(picture("_2.png").empty());
 }
 
-/// A board without a clock of its own starts in 1970 until it has reached a time server; here the
-/// others are of the future.
+/// A board without a battery-backed clock starts in 1970 until it reaches a time server; the other
+/// files are then dated in the future.
 TEST_F(SnapshotSinkTest, NewOnesAreNotTheOldestAfterTheClockWasPutBack) {
   const fs::path pictures = folder.path() / "pictures";
   fs::create_directory(pictures);
@@ -273,7 +273,7 @@ TEST_F(SnapshotSinkTest, NewOnesAreNotTheOldestAfterTheClockWasPutBack) {
   take(view(0, 11));
   EXPECT_EQ(files().size(), 3U);
   take(view(0, 12, Measured::Radiometric));
-  start(3);  // a restart must not forget the order
+  start(3);  // the order must survive a restart
   take(view(0, 13));
   EXPECT_EQ(files().size(), 4U);
   for (const char* kept : {"_11.png", "_12.png", "_12_measured.png", "_13.png"}) {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A handler that keeps what it was given and answers `result`.
+/// A handler that records its commands and answers `result`.
 struct AnsweringMachine {
   CommandResult result = CommandResult::Done;
   std::vector<Command> done{};
@@ -99,7 +99,7 @@ TEST(RequestOf, CutsWhatIsOversizedSoThatItIsRefused) {
   EXPECT_EQ(carry_out(request_of(long_name), machine.handler()).result,
             CommandResult::UnknownCommand);
 
-  std::string longest = "set_process_active";  // cut here, it would be a command
+  std::string longest = "set_process_active";  // would be a command if cut here
   std::string longer = longest + "x";
   const CommandMessage one_more{5, 6, longer.data(), {0, 0, nullptr, false}};
   EXPECT_EQ(carry_out(request_of(one_more), machine.handler()).result,

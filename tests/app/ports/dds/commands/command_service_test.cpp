@@ -1,4 +1,4 @@
-// Commands over a real DDS network: what comes back, and how often the machine was told.
+// Commands over a real DDS network: their answers, and the number of executions.
 #include "app/ports/dds/commands/command_service.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ using testing::HasSubstr;
 using tests::DdsNetwork;
 using tests::eventually;
 
-/// What the sink tells its commands to; it says no to everything but view 0.
+/// Handler of the sink's commands, which refuses everything except view 0.
 class Machine {
  public:
   CommandHandler handler() {
@@ -50,7 +50,7 @@ class Machine {
   std::vector<Command> commands_;
 };
 
-/// A controller that sends what it likes and looks at all results.
+/// A controller that sends any message and reads all results.
 class Controller {
  public:
   Controller()
@@ -75,8 +75,8 @@ class Controller {
     requests_.write(&message);
   }
 
-  /// Sends until an answer to this request comes: the first may be written before the sink knows
-  /// this reader.
+  /// Sends until an answer to this request arrives; the first one may be written before the sink
+  /// has matched this reader.
   CommandAnswer ask(RequestId id, const std::string& name,
                     const std::vector<double>& arguments) const {
     CommandAnswer answer{CommandResult::Busy, "no answer"};
@@ -107,7 +107,7 @@ class RecordedCommands : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(network_.valid()); }
 
-  /// The sink before is stopped; the controller has none of its answers.
+  /// Stops the previous sink and starts one; the controller has none of its answers.
   void start(const std::filesystem::path& folder, CommandHandler handler) {
     sink_.reset();
     controller_.emplace();
@@ -139,7 +139,7 @@ TEST_F(RecordedCommands, ARestartRepeatsNoRequest) {
 TEST_F(RecordedCommands, OneThatWasCutOffIsInterrupted) {
   const orbwatch::tests::TemporaryFolder then;
   start(folder_.path(), [&](const Command&) {
-    // What the disk holds if the power fails now.
+    // Copies the disk's content as after a power failure now.
     std::filesystem::copy(folder_.path(), then.path(), std::filesystem::copy_options::recursive);
     return CommandResult::Done;
   });
@@ -165,7 +165,7 @@ Result<CommandAnswer> send(const Command& command, std::chrono::milliseconds tim
 
 TEST_F(RecordedCommands, TheCommandLineSendsAgainWhatWasNotCarriedOut) {
   start("/proc/orbwatch", machine_.handler());
-  // Unless it had to repeat the request before the answer came.
+  // The count is higher if the request was repeated before the answer arrived.
   EXPECT_TRUE(eventually([&] {
     const auto answer = send({CommandCode::Start, {}}, std::chrono::minutes(1));
     return answer && answer->result == CommandResult::Done;
@@ -211,7 +211,7 @@ TEST_F(CommandServiceTest, ClientGetsTheAnswerOfTheMachine) {
 }
 
 TEST_F(CommandServiceTest, CountsWhatIsNoRequestAtAll) {
-  // Announced as a command, but its bytes are a number of characters that never come.
+  // Announced as a command, but its bytes state a length of characters that are missing.
   dds_topic_descriptor_t type = builtin_interfaces_msg_dds__Time__desc;
   type.m_typename = orbwatch_msgs_msg_dds__Command__desc.m_typename;
   const tests::ForeignWriter writer(DdsNetwork::kReaderDomain, type, command_topic("orbwatch"),
@@ -287,7 +287,7 @@ TEST_F(CommandServiceTest, CountsEveryRequestOfAFloodAndLimitsWhatIsCarriedOut) 
   const auto begin = hal::Clock::now();
   for (std::uint64_t number = 1; number <= kSent; ++number) {
     controller.send({9, number}, "trigger", {});
-    // Not more than the writer itself keeps.
+    // At most as many as the writer itself keeps.
     if (number % 100 == 0) {
       ASSERT_TRUE(controller.requests().flush());
     }
@@ -302,7 +302,7 @@ TEST_F(CommandServiceTest, CountsEveryRequestOfAFloodAndLimitsWhatIsCarriedOut) 
   EXPECT_GT(counts().refused + counts().dropped, 0u);
   EXPECT_EQ(counts().repeated, 0u);
 
-  // Afterwards all is well: an honest client gets through as soon as the second is over.
+  // Afterwards a regular client is served as soon as the second is over.
   EXPECT_TRUE(eventually([&] {
     const auto answer = send({CommandCode::Start, {}}, std::chrono::minutes(1));
     return answer && answer->result == CommandResult::Done;
@@ -355,7 +355,7 @@ TEST_F(CommandServiceTest, CountersAreInTheState) {
   }));
 }
 
-/// Nobody is there for commands to this sink.
+/// Expects that this sink has no reader for commands.
 void expect_deaf(const DdsSettings& settings, CommandHandler handler) {
   const DdsNetwork network;
   ASSERT_TRUE(network.valid());
@@ -401,7 +401,7 @@ TEST(CommandServiceOffTest, NobodyTakesCommandsWithoutAHandler) {
 TEST(CommandClientTest, RefusesAnAnswerThatNobodyKnows) {
   const DdsNetwork network;
   ASSERT_TRUE(network.valid());
-  // A service that answers nonsense: to every request the number 999.
+  // A service that answers every request with the invalid number 999.
   const tests::ForeignWriter results(DdsNetwork::kSinkDomain,
                                      orbwatch_msgs_msg_dds__CommandResult__desc,
                                      command_result_topic("orbwatch"), command_qos());

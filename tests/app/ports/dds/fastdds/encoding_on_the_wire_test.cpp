@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 #include "tests/app/ports/dds/offering_sink.h"
 
-/// The other ways in which a picture may go, pixel by pixel.
+/// Pictures in the other encodings, compared pixel by pixel.
 namespace orbwatch::app {
 namespace {
 
@@ -24,7 +24,7 @@ using tests::ShippedNetwork;
 constexpr int kSmoothWidth = 320;
 constexpr int kSmoothHeight = 180;
 
-/// A picture as a camera makes it: red grows to the right, green down, blue is flat.
+/// A smooth picture: red increases to the right, green downwards, blue is constant.
 std::shared_ptr<View> smooth_view() {
   auto view = tests::make_view(0, "front", 1, kSmoothWidth, kSmoothHeight);
   for (int y = 0; y < kSmoothHeight; ++y) {
@@ -45,7 +45,7 @@ class EncodingOnTheWire : public testing::Test {
     network_.emplace(ShippedNetwork::Kind::Lan);
   }
 
-  /// The first sample of a topic to which `view` goes; its data in data_.
+  /// The first sample of a topic of `view`; its data is stored in data_.
   cv::FileStorage sent_and_read(PixelFormat encoding, const std::string& topic,
                                 const std::string& type) {
     DdsSink sink = tests::sink_offering({.domain = tests::kDomain}, {{.encoding = encoding}});
@@ -93,7 +93,7 @@ TEST_F(EncodingOnTheWire, Mono8IsTheBrightness) {
   ASSERT_EQ(data_.size(), view_->bytes.size() / 3);
   for (std::size_t i = 0; i < data_.size(); ++i) {
     const std::uint8_t* rgb = view_->bytes.data() + 3 * i;
-    // ITU-R BT.601, of 8-bit samples.
+    // Luma by ITU-R BT.601 from 8-bit samples.
     ASSERT_NEAR(data_[i], 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2], 1.5);
   }
 }

@@ -10,8 +10,7 @@
 #include "tests/app/ports/dds/fastdds/reader_program.h"
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 
-/// What another vendor's reader gets of the pictures that the sink was given, with the network
-/// settings that are shipped.
+/// Pictures of the sink received by another vendor's reader, with the shipped network settings.
 namespace orbwatch::app {
 namespace {
 

@@ -11,7 +11,7 @@ namespace orbwatch::tests::ros {
 
 namespace {
 
-/// In quotes, two digits a byte.
+/// Quoted hexadecimal text, two digits per byte.
 template <class Number, std::size_t size>
 std::string hexadecimal(const std::array<Number, size>& numbers) {
   std::ostringstream out;
@@ -21,7 +21,7 @@ std::string hexadecimal(const std::array<Number, size>& numbers) {
   return out.str();
 }
 
-/// Collects `"name": value` with commas between.
+/// Collects `"name": value`, separated by commas.
 class Members {
  public:
   Members& text(const char* name, const std::string& value) { return raw(name, quoted(value)); }

@@ -16,7 +16,7 @@
 #include "tests/app/ports/dds/fastdds/json.h"
 #include "tests/app/ports/dds/fastdds/reader.h"
 
-/// Reads one topic with Fast DDS and prints what came, a line of JSON each.
+/// Reads one topic with Fast DDS and prints each sample as a line of JSON.
 namespace orbwatch::tests::fastdds {
 namespace {
 
@@ -43,21 +43,21 @@ constexpr const char* kHelp =
 struct Options {
   ParticipantSettings participant;
   ReaderSettings reader;
-  std::uint64_t count = 0;  ///< 0: no end
+  std::uint64_t count = 0;  ///< 0: unlimited
   std::chrono::seconds seconds{0};
   std::chrono::milliseconds slow{0};
-  std::string save;  ///< empty: nothing
+  std::string save;  ///< empty: data is not saved
   bool quiet = false;
 };
 
 volatile std::sig_atomic_t ended = 0;
 
-/// What can be said of a sample.
+/// A decoded sample.
 struct Decoded {
-  std::string members;             ///< of its JSON object
-  std::vector<std::uint8_t> data;  ///< of a picture
+  std::string members;             ///< members of its JSON object
+  std::vector<std::uint8_t> data;  ///< data of a picture
 };
-/// Nothing when the sample cannot be read.
+/// Decodes a sample; nullopt: not decodable.
 using Decoder = std::function<std::optional<Decoded>(const RawSample&)>;
 
 struct KnownType {
@@ -171,7 +171,7 @@ void say(const std::string& members) {
   std::fflush(stdout);
 }
 
-/// What one run saw.
+/// Output of one run.
 class Run {
  public:
   explicit Run(const Options& options)

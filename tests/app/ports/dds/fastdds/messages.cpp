@@ -69,7 +69,8 @@ void read(Cdr& cdr, std::vector<Element>& sequence) {
   std::uint32_t length = 0;
   cdr >> length;
   sequence.clear();
-  // Grows with what is there: a length that is a lie ends the message, not the memory.
+  // Grows with the data present, so that a wrong length ends the message instead of exhausting the
+  // memory.
   for (std::uint32_t i = 0; i < length; ++i) read(cdr, sequence.emplace_back());
 }
 
@@ -119,7 +120,7 @@ void read(Cdr& cdr, ParticipantEntitiesInfo<size>& info) {
 template <class Message>
 std::optional<Message> decode(std::span<const std::uint8_t> cdr) {
   if (cdr.size() < kEncapsulationSize || cdr[0] != 0 || cdr[1] > kLastPlainEncapsulation) return {};
-  // Fast-CDR takes no const pointers, but reading changes nothing.
+  // Fast-CDR takes non-const pointers, but reading changes nothing.
   auto* bytes = const_cast<char*>(reinterpret_cast<const char*>(cdr.data()));
   eprosima::fastcdr::FastBuffer buffer(bytes, cdr.size());
   Cdr reader(buffer, Cdr::DEFAULT_ENDIAN, kCdrVersion);

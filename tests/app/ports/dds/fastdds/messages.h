@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// ROS 2 messages as their .msg files state them (common_interfaces, rmw_dds_common,
-/// orbwatch_msgs), read with another vendor's CDR library. Nothing here comes from the product or
-/// its IDL.
+/// ROS 2 messages by their .msg files (common_interfaces, rmw_dds_common, orbwatch_msgs), read with
+/// another vendor's CDR library, independent of the product and its IDL.
 namespace orbwatch::tests::ros {
 
 struct Time {
@@ -122,7 +121,7 @@ struct Event {
   std::vector<Figure> figures;
 };
 
-/// How ROS 2 names a DDS entity: the 16 bytes of its GUID, to which Humble adds 8 zeros.
+/// ROS 2's identifier of a DDS entity: the 16 bytes of its GUID, to which Humble adds 8 zeros.
 template <std::size_t size>
 using Gid = std::array<std::uint8_t, size>;
 inline constexpr std::size_t kGidSize = 16;
@@ -136,7 +135,7 @@ struct NodeEntitiesInfo {
   std::vector<Gid<gid_size>> writer_gids;
 };
 
-/// What stands on the topic ros_discovery_info.
+/// Message of the topic ros_discovery_info.
 template <std::size_t gid_size>
 struct ParticipantEntitiesInfo {
   static constexpr std::string_view kType = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
@@ -146,8 +145,8 @@ struct ParticipantEntitiesInfo {
 using DiscoveryInfo = ParticipantEntitiesInfo<kGidSize>;
 using HumbleDiscoveryInfo = ParticipantEntitiesInfo<kHumbleGidSize>;
 
-/// The message in `cdr`, encapsulation included, of either byte order. Nothing when it is cut
-/// short, not plain CDR, or followed by more than the padding to a multiple of 4 bytes.
+/// Decodes the message in `cdr`, including encapsulation, in either byte order. Nullopt: truncated,
+/// not plain CDR, or followed by more than the padding to a multiple of 4 bytes.
 template <class Message>
 std::optional<Message> decode(std::span<const std::uint8_t> cdr);
 

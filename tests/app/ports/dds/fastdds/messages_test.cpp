@@ -7,14 +7,14 @@
 
 #include "tests/app/ports/dds/cdr.h"
 
-/// Messages written by hand, octet by octet as DDSI-RTPS 2.5, clause 10, has it.
+/// Messages written by hand, octet by octet by DDSI-RTPS 2.5, clause 10.
 namespace orbwatch::tests::ros {
 namespace {
 
 using app::tests::Bytes;
 using WrittenCdr = app::tests::Cdr;
 
-/// Behind its encapsulation: plain, little-endian.
+/// The message after its encapsulation (plain, little-endian).
 Bytes sent(const WrittenCdr& cdr) {
   constexpr std::size_t kEncapsulation = 4;
   Bytes bytes(kEncapsulation + cdr.bytes().size());

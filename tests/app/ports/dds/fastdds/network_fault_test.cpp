@@ -13,8 +13,8 @@
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 #include "tests/support/sanitizers.h"
 
-/// Readers and cables fail; pictures go on to whom they can reach, the pipeline never waits, every
-/// picture is accounted for and memory does not grow.
+/// Failures of readers and cables: pictures reach the remaining readers, the pipeline never waits,
+/// every picture is accounted for and memory does not grow.
 namespace orbwatch::app {
 namespace {
 
@@ -26,7 +26,7 @@ using tests::ShippedNetwork;
 
 const std::string kTopic = "rt/orbwatch/front/image_raw";
 
-/// Bytes of this process that are in memory.
+/// Resident memory of this process, bytes.
 std::int64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::int64_t all = 0;
@@ -50,7 +50,7 @@ class NetworkFault : public testing::Test {
                                            foreign_reader(tests::kDomain, arguments));
   }
 
-  /// Hands views over until `reader` has got `count` more of them.
+  /// Passes views until `reader` has received `count` more of them.
   bool gets_more(const ReaderProgram& reader, std::size_t count = 5) {
     const auto before = reader.samples().size();
     return eventually([&] {
@@ -59,11 +59,11 @@ class NetworkFault : public testing::Test {
     });
   }
 
-  /// That the pipeline waited for nobody, and that each view was written, or dropped for a reason
-  /// that is counted.
+  /// Expects that the pipeline did not wait, and that each view was written, or dropped with a
+  /// counted reason.
   void expect_accounted() {
     if (!orbwatch::tests::kIsSanitized) {
-      // Once in a while the thread that has a topic's lock for a moment is displaced just then.
+      // The thread that briefly holds a topic's lock may occasionally be preempted at that moment.
       EXPECT_LE(views_.waits(), views_.accepted() / 20) << "of " << views_.accepted();
     }
     ASSERT_TRUE(eventually([&] { return views_.all_returned(); }));
@@ -77,7 +77,7 @@ class NetworkFault : public testing::Test {
 
   std::optional<ShippedNetwork> network_;
   DdsSink sink_{{.domain = tests::kDomain}, tests::make_names(), nullptr};
-  // Small enough for the receive buffer that a system grants unless told otherwise.
+  // Small enough for the system's default receive buffer.
   tests::PacedViews views_{
       sink_,
       {tests::make_view(0, "front", 1, 160, 90), tests::make_view(0, "front", 2, 160, 90),

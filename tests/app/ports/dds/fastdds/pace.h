@@ -9,17 +9,16 @@
 
 namespace orbwatch::app::tests {
 
-/// Stands where the pipeline stands: hands something over at a camera's pace and counts how often
-/// it was made to wait. A thread that waits for a lock, a socket or anything else gives its
-/// processor up of its own accord; the system counts that per thread, and here nothing else does
-/// it.
+/// Acts as the pipeline: passes data at a camera's pace and counts how often it was blocked. A
+/// thread that waits for a lock, a socket or another resource makes a voluntary context switch; the
+/// system counts these per thread, and they have no other cause here.
 class Pace {
  public:
   static constexpr auto kPeriod = std::chrono::milliseconds(33);
 
   virtual ~Pace() = default;
 
-  /// Waits until the next one is due, then hands it over.
+  /// Waits until the next item is due, then passes it.
   void hand_over() {
     std::this_thread::sleep_until(due_);
     due_ += kPeriod;
@@ -35,16 +34,16 @@ class Pace {
     for (int i = 0; i < count; ++i) hand_over();
   }
 
-  /// Begins a new pace now, instead of catching up.
+  /// Restarts the pace now, instead of catching up.
   void restart() { due_ = std::chrono::steady_clock::now(); }
 
   std::uint64_t accepted() const { return accepted_; }
-  /// Of all hand-overs, those that waited.
+  /// Number of passes that waited.
   std::uint64_t waits() const { return waits_; }
   double longest_wait_ms() const { return longest_wait_.count(); }
 
  protected:
-  /// The one of that number, from 1 on.
+  /// Passes the item of that number, counted from 1.
   virtual void hand_over_now(std::uint64_t number) = 0;
 
  private:

@@ -11,13 +11,13 @@
 
 namespace orbwatch::app::tests {
 
-/// Hands views over in turn, each with the status of its frame set.
+/// Passes views in turn, each with the status of its frame set.
 class PacedViews final : public Pace {
  public:
   PacedViews(Sink& sink, std::vector<std::shared_ptr<View>> views)
       : sink_(sink), views_(std::move(views)) {}
 
-  /// Whether the sink has let go of all views, so that its counts are complete.
+  /// Returns whether the sink has released all views, so that its counts are complete.
   bool all_returned() const {
     return std::ranges::all_of(views_, [](const auto& view) { return view.use_count() == 1; });
   }

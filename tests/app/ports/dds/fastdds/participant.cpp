@@ -32,7 +32,7 @@ std::string hexadecimal(const Guid& guid) {
 
 }  // namespace
 
-/// Writes down what writers announce; on threads of Fast DDS.
+/// Records the announcements of writers; on threads of Fast DDS.
 class Participant::Listener final : public dds::DomainParticipantListener {
  public:
 #ifdef FASTDDS_VERSION_MAJOR

@@ -12,7 +12,7 @@ class DomainParticipant;
 
 namespace orbwatch::tests::fastdds {
 
-/// What a writer on the network says of itself.
+/// Announcement of a writer on the network.
 struct Announcement {
   std::string guid;  ///< 16 bytes in hexadecimal
   std::string topic;
@@ -22,12 +22,13 @@ struct Announcement {
 
 struct ParticipantSettings {
   int domain = 0;
-  std::uint32_t receive_buffer = 0;  ///< bytes, of its sockets; 0: what the system gives
+  /// Receive buffer of its sockets, bytes; 0: the system's default.
+  std::uint32_t receive_buffer = 0;
 };
 
-/// A participant of Fast DDS, the other vendor, over UDP alone and otherwise as its defaults are:
-/// every interface there is when it is made, on the network namespace of the thread that makes it.
-/// Throws std::runtime_error when there is none. Thread-safe.
+/// A participant of Fast DDS, the other vendor, over UDP only and otherwise with its defaults:
+/// every interface present at its creation, in the network namespace of the creating thread. Throws
+/// std::runtime_error if it cannot be created. Thread-safe.
 class Participant {
  public:
   explicit Participant(const ParticipantSettings& settings);
@@ -37,7 +38,7 @@ class Participant {
 
   eprosima::fastdds::dds::DomainParticipant& get() const { return *participant_; }
 
-  /// Of the writers that are known now.
+  /// Announcements of the presently known writers.
   std::vector<Announcement> announcements() const;
 
  private:

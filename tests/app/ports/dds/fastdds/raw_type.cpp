@@ -4,7 +4,7 @@ namespace orbwatch::tests::fastdds {
 
 namespace {
 
-/// What a history reserves for a sample before it knows its size, which then replaces this.
+/// Size that a history reserves for a sample until its actual size is known.
 constexpr std::uint32_t kExpectedSize = 4096;
 
 }  // namespace

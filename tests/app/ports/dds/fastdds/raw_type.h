@@ -12,11 +12,10 @@
 
 namespace orbwatch::tests::fastdds {
 
-/// One sample as it came over the wire, encapsulation included.
+/// One sample in its wire format, including encapsulation.
 using RawSample = std::vector<std::uint8_t>;
 
-/// A type that is only a name: its samples stay what they are on the wire, a RawSample. For reading
-/// only.
+/// A type with a name only: its samples stay in wire format as RawSample. For reading only.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit RawType(std::string_view name);

@@ -39,7 +39,7 @@ dds::DataReaderQos qos_of(const ReaderSettings& settings) {
 
 }  // namespace
 
-/// Notes the first match; on a thread of Fast DDS.
+/// Records the first match; on a thread of Fast DDS.
 class Reader::Listener final : public dds::DataReaderListener {
  public:
   void on_subscription_matched(dds::DataReader*,

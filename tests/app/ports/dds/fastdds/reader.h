@@ -22,11 +22,11 @@ struct ReaderSettings {
   std::string type;
   bool reliable = true;
   bool transient_local = false;
-  int depth = 1;  ///< samples kept, newest first to stay
+  int depth = 1;  ///< samples kept, the newest ones
 };
 
 /// A reader of one topic whose samples stay bytes. The participant outlives it; a topic has one
-/// reader per participant. Throws std::runtime_error when Fast DDS refuses. Thread-bound.
+/// reader per participant. Throws std::runtime_error on a failure of Fast DDS. Thread-bound.
 class Reader {
  public:
   Reader(Participant& participant, const ReaderSettings& settings);
@@ -34,17 +34,17 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// The next sample; nothing when none came in time.
+  /// The next sample; nullopt: none in time.
   std::optional<RawSample> take(std::chrono::milliseconds patience);
 
-  /// When the first writer was found whose QoS suits this reader.
+  /// Time at which the first writer with compatible QoS was matched.
   std::optional<std::chrono::steady_clock::time_point> first_match() const;
 
  private:
   class Listener;
   std::unique_ptr<Listener> listener_;
-  eprosima::fastdds::dds::Subscriber* subscriber_ =
-      nullptr;  ///< the participant's, as what follows
+  /// Owned by the participant, like the following members.
+  eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;
 };
 

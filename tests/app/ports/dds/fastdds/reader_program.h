@@ -13,7 +13,7 @@
 
 namespace orbwatch::tests {
 
-/// A reader as a program in some network, and what it has printed so far: JSON, an object a line.
+/// A reader program in a network, and its output so far: JSON, one object per line.
 class ReaderProgram {
  public:
   ReaderProgram(const NetworkNamespace& where, const std::vector<std::string>& command) {
@@ -24,7 +24,7 @@ class ReaderProgram {
 
   std::string printed() const { return program_->output(); }
 
-  /// Whole lines that have a member of that name.
+  /// Complete lines that have a member of that name.
   std::vector<std::string> lines_with(const std::string& member) const {
     std::vector<std::string> found;
     std::istringstream text(printed());
@@ -36,7 +36,7 @@ class ReaderProgram {
 
   std::vector<std::string> samples() const { return lines_with("since_match_ms"); }
 
-  /// What the writer that it found said of itself; empty as long as it found none.
+  /// Announcement of the matched writer; nullopt: none yet.
   std::optional<std::string> match() const {
     const auto lines = lines_with("matched");
     if (lines.empty()) return std::nullopt;
@@ -48,7 +48,7 @@ class ReaderProgram {
   std::optional<Subprocess> program_;
 };
 
-/// The command of another vendor's reader; `options` are those of fastdds_reader besides the
+/// Command line of another vendor's reader; `options` are those of fastdds_reader besides the
 /// domain.
 inline std::vector<std::string> foreign_reader(int domain,
                                                const std::vector<std::string>& options) {
@@ -57,7 +57,7 @@ inline std::vector<std::string> foreign_reader(int domain,
   return command;
 }
 
-/// One printed line; its members as fs["name"].
+/// Parses one printed line; its members are fs["name"].
 inline cv::FileStorage parsed(const std::string& line) {
   return {line, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON};
 }

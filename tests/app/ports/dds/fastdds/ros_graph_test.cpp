@@ -7,7 +7,7 @@
 #include "tests/app/ports/dds/fastdds/reader_program.h"
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 
-/// What ROS 2's graph is told, as another vendor's reader gets it.
+/// Announcements for ROS 2's graph, received by another vendor's reader.
 namespace orbwatch::app {
 namespace {
 
@@ -18,8 +18,8 @@ using tests::ShippedNetwork;
 
 struct Generation {
   RosGeneration ros;
-  const char* type;     ///< of fastdds_reader
-  std::size_t padding;  ///< digits behind those of a GUID
+  const char* type;     ///< type argument of fastdds_reader
+  std::size_t padding;  ///< digits after those of a GUID
 };
 
 class RosGraph : public testing::TestWithParam<Generation> {};

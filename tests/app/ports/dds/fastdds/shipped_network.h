@@ -12,14 +12,14 @@
 
 namespace orbwatch::app::tests {
 
-/// The domain of every test here: each has a network of its own.
+/// Domain of every test here, because each has a separate network.
 inline constexpr int kDomain = 3;
 
-/// A receive buffer that holds pictures, as far as the system grants it.
+/// A receive buffer for pictures, as far as the system grants it.
 inline constexpr const char* kReceiveBuffer = "8388608";
 
-/// The networks of orbwatch and of those who read, and how the shipped settings for it are called:
-/// one network, where only the loopback interface is, or two with a cable between them.
+/// The networks of orbwatch and of the readers, and the name of the shipped settings for them: one
+/// network with only the loopback interface, or two connected by a cable.
 class ShippedNetwork {
  public:
   enum class Kind { SameHost, Lan };
@@ -37,10 +37,10 @@ class ShippedNetwork {
   }
   const orbwatch::tests::Cable& cable() const { return cable_.value(); }
 
-  /// As it is shipped, for CYCLONEDDS_URI.
+  /// The shipped profile, for CYCLONEDDS_URI.
   std::string profile() const { return "file://" ORBWATCH_SOURCE_DIR "/platform/dds/" + profile_; }
 
-  /// Until the sink has joined the domain.
+  /// Starts the sink and waits until it has joined the domain.
   void start(DdsSink& sink) const {
     setenv("CYCLONEDDS_URI", profile().c_str(), 1);
     writers_.run([&sink] {

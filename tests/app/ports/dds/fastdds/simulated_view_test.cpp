@@ -19,8 +19,8 @@
 #include "tests/app/ports/dds/fastdds/reader_program.h"
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 
-/// What another vendor's reader gets from `orbwatchd`, beside what the simulated machine says
-/// stands there: rays from the ball's centre, which know neither camera nor mirror nor remap.
+/// Compares views of `orbwatchd` received by another vendor's reader with the simulated machine:
+/// rays from the ball's centre, independent of camera, mirror and remapping.
 namespace orbwatch::app {
 namespace {
 
@@ -31,7 +31,7 @@ using simulation::Vec3;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A flat view as the site file states it.
+/// A perspective view as in the site file.
 struct FlatView {
   double yaw;    // degrees from +Y towards +X
   double pitch;  // degrees, up positive
@@ -125,7 +125,7 @@ class SimulatedView : public orbwatch::tests::Daemon {
     return appearance_of(machine, ray, nearest_static(machine, ray));
   }
 
-  /// Of the view's pixels, those for which `near` is true.
+  /// Share of the view's pixels for which `near` is true.
   static double share_near(const FlatView& view, const std::function<bool(int, int)>& near) {
     int count = 0;
     for (int y = 0; y < view.height; ++y) {
@@ -138,7 +138,7 @@ class SimulatedView : public orbwatch::tests::Daemon {
     return std::ranges::all_of(pixels, [](std::uint8_t sample) { return sample == 0; });
   }
 
-  /// Whether a pixel of the front view, rgb with `step` bytes a row, has the machine's colour.
+  /// Predicate: a pixel of the front view, rgb with `step` bytes per row, has the machine's colour.
   static std::function<bool(int, int)> like_the_machine(const std::uint8_t* pixels,
                                                         std::size_t step) {
     return [pixels, step](int x, int y) {
@@ -156,7 +156,7 @@ class SimulatedView : public orbwatch::tests::Daemon {
 };
 
 TEST_F(SimulatedView, ColoursAreThoseOfTheMachine) {
-  // Where the colour camera is late, as on a busy machine, the view is black.
+  // The view is black if the colour camera is late, as on a busy machine.
   auto [image, pixels] = read("rt/orbwatch/front/image_raw");
   for (int again = 0; again < 5 && is_black(pixels); ++again) {
     std::tie(image, pixels) = read("rt/orbwatch/front/image_raw");
@@ -166,8 +166,8 @@ TEST_F(SimulatedView, ColoursAreThoseOfTheMachine) {
   ASSERT_EQ(static_cast<int>(image["height"]), kFront.height);
   const auto step = static_cast<std::size_t>(static_cast<int>(image["step"]));
   ASSERT_EQ(pixels.size(), step * static_cast<std::size_t>(kFront.height));
-  // Joints and letters are finer than a camera of this size can show. Of a picture with red and
-  // blue exchanged 6 % are near, mirrored 41 %, upside down 36 %.
+  // Joints and letters are finer than the resolution of this camera. With red and blue exchanged 6
+  // % of the pixels would match, mirrored 41 %, upside down 36 %.
   EXPECT_GT(share_near(kFront, like_the_machine(pixels.data(), step)), 0.7);
 }
 
@@ -237,7 +237,7 @@ TEST_F(SimulatedView, CountsAreTheTemperaturesOfTheMachine) {
     constexpr double kNear = 2;
     return std::abs(celsius - truth(kWork, x, y).temperature) < kNear;
   };
-  // The rest is the pool, sparks, the nozzle, and edges.
+  // The other pixels are the pool, sparks, the nozzle, and edges.
   EXPECT_GT(share_near(kWork, near), 0.65);
 }
 

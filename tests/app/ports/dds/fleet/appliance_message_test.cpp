@@ -60,7 +60,7 @@ TEST(ApplianceMessage, OfAStrangerIsMadeSafeToShow) {
   ApplianceMessage message = appliance_message(full_notice());
   fill(message.name, "\x1b[31m\xff<script>");
   fill(message.condition, "a\nb");
-  std::memset(message.alarm, 'x', sizeof message.alarm);  // no end
+  std::memset(message.alarm, 'x', sizeof message.alarm);  // no terminating zero
   const auto notice = check_appliance(message);
   ASSERT_TRUE(notice) << notice.error().message;
   EXPECT_EQ(notice->name, "?[31m?<script>");

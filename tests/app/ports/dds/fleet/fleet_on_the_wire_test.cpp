@@ -1,4 +1,4 @@
-// Appliances that hear each other over the network, and what strangers send them.
+// Appliances that receive each other's announcements over the network, and messages of strangers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using tests::DdsNetwork;
 using tests::eventually;
 using tests::ForeignWriter;
 
-/// The same on the wire, but for the bounds.
+/// The same type on the wire, except for the bounds.
 struct LooseAppliance {
   char *name, *version, *prefix, *page_address;
   std::uint16_t page_port;
@@ -39,7 +39,7 @@ constexpr std::uint32_t operation(dds_stream_typecode type, dds_stream_typecode 
   return std::uint32_t{DDS_OP_ADR} | std::uint32_t{type} << 16U | std::uint32_t{of} << 8U;
 }
 
-/// The type that idlc would make of it.
+/// The descriptor that idlc would generate for it.
 dds_topic_descriptor_t loose_type() {
   using Loose = LooseAppliance;
   constexpr std::uint32_t kText = operation(DDS_OP_VAL_STR), kByte = operation(DDS_OP_VAL_1BY);
@@ -95,7 +95,7 @@ struct Member {
              std::make_shared<CommandRecord>(), hal::SharedThreads::alone(),
              {name, "1.2.3", "orbwatch", {"0.0.0.0", 8443}}, fleet) {}
 
-  /// What it does in a moment of its life.
+  /// Runs one step of the appliance.
   void live() {
     Status status;
     status.state = SystemState::Running;
@@ -184,7 +184,7 @@ TEST_F(FleetOnTheWire, WhatIsTooLongOrWrongIsDropped) {
         0,           alarm.data()};
   };
   std::uint64_t rounds = 0;
-  ASSERT_TRUE(live_until([&] {  // the first ones come before the reader knows the writer
+  ASSERT_TRUE(live_until([&] {  // the first samples are written before the reader matches
     ++rounds;
     for (const LooseAppliance& wrong : {sample(longer, empty, 1), sample(huge, empty, 1),
                                         sample(sound, huge, 1), sample(sound, empty, 77)}) {

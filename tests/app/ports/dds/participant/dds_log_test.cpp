@@ -23,7 +23,7 @@ bool refuses_bad_domains() {
 
 std::ptrdiff_t lines(const std::string& log) { return std::count(log.begin(), log.end(), '\n'); }
 
-/// In a process of its own: other tests may have spent the budget of this minute here.
+/// Runs in a separate process, because other tests may have used up the limit of this minute.
 TEST(LimitDdsLogDeathTest, WhatCycloneLogsArrivesAndIsLimited) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(

@@ -11,7 +11,7 @@ TEST(EntityTest, IsDeletedWithItsOwnerAndMoves) {
   ASSERT_GT(handle, 0);
   {
     const Entity second = std::move(first);
-    EXPECT_FALSE(first);  // that is the test
+    EXPECT_FALSE(first);  // moved-from, on purpose
     EXPECT_EQ(second.get(), handle);
     EXPECT_EQ(dds_waitset_set_trigger(handle, true), DDS_RETCODE_OK);
   }

@@ -52,7 +52,7 @@ TEST(ParticipantTest, TheLastToLeaveClosesTheDomain) {
   configure("lo");
   auto participant = Participant::join(kDomain);
   ASSERT_TRUE(participant) << participant.error().message;
-  // A configuration that cannot work is only seen by a domain that starts afresh.
+  // Only a newly created domain detects an unusable configuration.
   configure("absent0");
   EXPECT_TRUE(Participant::join(kDomain));
   participant->leave();
@@ -63,7 +63,7 @@ TEST(ParticipantTest, TheEnvironmentOverridesOurDefaults) {
   configure("lo", "<Internal><SocketReceiveBufferSize min=\"1MB\" max=\"2MB\"/></Internal>");
   const auto participant = Participant::join(kDomain);
   EXPECT_TRUE(participant) << participant.error().message;
-  // More than any system grants: only refused if it is the minimum that counts.
+  // More than any system grants: refused only if the minimum is enforced.
   configure("lo", "<Internal><SocketReceiveBufferSize min=\"2GB\" max=\"2GB\"/></Internal>");
   EXPECT_FALSE(Participant::join(kDomain + 1));
 }

@@ -10,7 +10,7 @@ namespace {
 using optics::ViewKind;
 using optics::ViewSpec;
 
-/// Where the message says that a point of the optical frame appears.
+/// Projects a point of the optical frame by the message.
 optics::Vec2 by_message(const CameraInfoMessage& info, const std::array<double, 4>& point) {
   std::array<double, 3> out{};
   for (std::size_t row = 0; row < 3; ++row) {

@@ -37,7 +37,7 @@ class DiscoveryInfoTest : public testing::TestWithParam<RosGeneration> {
 
   std::size_t gid_size() const { return GetParam() == RosGeneration::Humble ? 24 : 16; }
 
-  /// A Gid: the 16 bytes by which DDS itself tells of the entity, then zeros.
+  /// A Gid: the 16 bytes of the entity's GUID in DDS, then zeros.
   Bytes gid(dds_entity_t entity) const {
     dds_guid_t guid{};
     EXPECT_EQ(dds_get_guid(entity, &guid), DDS_RETCODE_OK);
@@ -52,7 +52,7 @@ class DiscoveryInfoTest : public testing::TestWithParam<RosGeneration> {
     cdr.number(static_cast<std::uint32_t>(entities.size()));
     for (const dds_entity_t entity : entities) put(cdr, entity);
   }
-  /// By rmw_dds_common's definition: readers before writers.
+  /// Order by rmw_dds_common's definition: readers before writers.
   Bytes expected(const std::vector<dds_entity_t>& writers,
                  const std::vector<dds_entity_t>& readers) const {
     Cdr cdr;

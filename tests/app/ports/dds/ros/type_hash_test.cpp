@@ -26,7 +26,7 @@ struct Published {
   std::string_view hash;
 };
 
-/// What ROS 2's own generator wrote into packages that were published (Kilted).
+/// Hashes from ROS 2's own generator in published packages (Kilted).
 constexpr std::array kPublished{
     Published{"builtin_interfaces/msg/Time",
               "b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197"},
@@ -69,7 +69,7 @@ TEST(TypeHash, IsTheOneThatRos2Publishes) {
   }
 }
 
-/// The types are final: another hash is another type, which no reader in the field knows.
+/// The types are final: another hash means another type, which no existing reader matches.
 TEST(TypeHash, OfOurTypesNeverChanges) {
   for (const Published& ours : {
            Published{"orbwatch_msgs/msg/Appliance",

@@ -15,7 +15,7 @@ using std::chrono::sys_seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// With one grant, made by hand as other products make them.
+/// Document with one grant, written by hand in the style of other products.
 std::string document(const std::string& grant) {
   return "<?xml version=\"1.0\"?><dds xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\">"
          "<permissions><grant name=\"g\">" +
@@ -69,7 +69,7 @@ TEST(PermissionsTest, OfOtherProductsAreRead) {
   EXPECT_FALSE(contains(grant->domains, 0) || contains(grant->domains, 3));
 }
 
-/// A time_t of 32 bit ends in January 2038.
+/// A 32-bit time_t ends in January 2038.
 TEST(PermissionsTest, DatesBeyondTheEndOf32BitAreReadAsTheyWereWritten) {
   const sys_seconds from(sys_days(std::chrono::July / 1 / 2045));
   const sys_seconds until(sys_days(std::chrono::December / 31 / 2105));
@@ -87,7 +87,7 @@ TEST(PermissionsTest, RefusesWhatIsNone) {
   for (const std::string wrong : {"", "soon", "2020-01-01", "2020-01-01T00:00:00X",
                                   "2020-01-01T00:00:00+1", "2020-13-01T00:00:00"}) {
     const auto read = read_permissions(dates("2020-01-01T00:00:00", wrong));
-    // An element without text has none.
+    // An element without text gives an empty text.
     ASSERT_FALSE(read) << wrong;
     EXPECT_THAT(read.error().message, HasSubstr("instead of a date"));
   }
@@ -106,7 +106,7 @@ TEST(GovernanceTest, IsForItsDomains) {
   EXPECT_FALSE(governed_domains("<dds"));
 }
 
-/// As DDS Security 1.1, 9.4.1.3.2.3 wants topics matched.
+/// Matches topics by the rules of DDS Security 1.1, 9.4.1.3.2.3.
 bool allows(const std::vector<std::string>& patterns, const std::string& topic) {
   return std::ranges::any_of(patterns, [&topic](const std::string& pattern) {
     return fnmatch(pattern.c_str(), topic.c_str(), 0) == 0;

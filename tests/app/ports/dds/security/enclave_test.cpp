@@ -1,4 +1,4 @@
-/// What is said of files that would not work.
+/// Errors for unusable files.
 #include "app/ports/dds/security/enclave.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ class EnclaveTest : public testing::Test {
       : keystore_(make_keystore(keystore_request(folder_ / "keys"))),
         files_(enclave_folder(keystore_, "subscriber")) {}
 
-  /// One line that names the file and the reason, from joining, too.
+  /// Expects one line with the file and the reason, also when joining.
   void expect_refused(const fs::path& file, const std::string& reason, int domain = kDomain) const {
     const auto checked = check_enclave(files_, domain, this_second());
     ASSERT_FALSE(checked) << file << ' ' << reason;
@@ -42,7 +42,7 @@ class EnclaveTest : public testing::Test {
     EXPECT_EQ(joined.error().message, "DDS security: " + checked.error().message);
   }
 
-  /// `file` as `text` signed by the keystore's authority.
+  /// Writes `text`, signed by the keystore's authority, to `file`.
   void sign(const fs::path& file, const std::string& text) const {
     const auto certificate = read_certificate(keystore_ / "private" / "permissions_ca.cert.pem");
     auto key = read_key(keystore_ / "private" / "permissions_ca.key.pem");
@@ -189,7 +189,7 @@ TEST(SignedDocumentTest, OnlyTheSignerItselfCounts) {
   const ValidityPeriod validity{this_second(), this_second() + std::chrono::days(1)};
   const auto authority = make_credential("authority", CertificateUse::SignDocuments, validity);
   ASSERT_TRUE(authority);
-  // A holder of a certificate of the authority, which may even sign documents.
+  // A holder of a certificate of the authority that may even sign documents.
   const auto holder =
       make_credential("holder", CertificateUse::SignDocuments, validity, &*authority);
   ASSERT_TRUE(holder);

@@ -10,10 +10,10 @@
 
 namespace orbwatch::app::tests {
 
-/// The program of OpenSSL, which knows nothing of our code.
+/// OpenSSL's program, independent of our code.
 class OpensslProgram {
  public:
-  /// Runs it; returns its exit code and keeps what it said.
+  /// Runs it; returns its exit code and keeps its output.
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), OPENSSL_PROGRAM);
     orbwatch::tests::Subprocess program(arguments, folder_ / "said");

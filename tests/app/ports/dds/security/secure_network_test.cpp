@@ -1,6 +1,6 @@
-/// A secured sink and all kinds of peers on one network. Each is a domain of this process, so all
-/// that they exchange crosses UDP. That somebody gets nothing is judged when others, who hear the
-/// same network, got something.
+/// A secured sink and various peers on one network. Each is a domain of this process, so that all
+/// samples cross UDP. The absence of samples for a peer is checked after other peers on the same
+/// network received some.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,11 +38,11 @@ using tests::make_keystore;
 
 using ImageReader = tests::TopicReader<ImageMessage>;
 
-/// Computers besides the sink's and the reader's. Each has one participant at a time: of a second
-/// secured one in a domain of a process Cyclone DDS 0.10.2 leaks what it decrypts.
+/// Computers besides the sink's and the reader's. Each has one participant at a time, because
+/// Cyclone DDS 0.10.2 leaks decrypted data of a second secured one in a domain of a process.
 constexpr int kSecondPeer = 3;
 constexpr int kThirdPeer = 4;
-/// So many frames of one peer prove that another one's would have come, too.
+/// Number of frames of one peer after which those of another one would have arrived, too.
 constexpr int kMany = 20;
 
 SecuritySettings keys_of(const fs::path& keystore, const std::string& name) {
@@ -74,7 +74,7 @@ class SecureNetwork : public testing::Test {
         {CommandCode::Start, {}}, cancelled);
   }
 
-  /// Shows views until `reader` has seen kMany of them, and whatever else `see` is for.
+  /// Publishes views until `reader` has received kMany of them, and calls `see` meanwhile.
   void show_until_seen(const ImageReader& reader, const std::function<void()>& see) {
     int seen = 0;
     EXPECT_TRUE(eventually([&] {
@@ -170,7 +170,7 @@ TEST_F(SecureNetwork, WithoutKeysNothingIsSeenNorShown) {
                              kSecondPeer);
   const ImageReader insider(sensor_msgs_msg_dds__Image__desc, front_topic(), frame_qos(),
                             DdsNetwork::kReaderDomain, subscriber());
-  // Proves that the outsider hears the network; and what it shows must not reach the insider.
+  // Proves that the outsider receives from the network; its own samples must not reach the insider.
   const ForeignWriter plain(kThirdPeer, sensor_msgs_msg_dds__Image__desc, front_topic(),
                             frame_qos());
   ASSERT_TRUE(plain.wait_for_reader());
@@ -236,8 +236,8 @@ TEST_F(SecureNetwork, PermissionsThatSomebodyGaveHimselfAreVoid) {
   request.subscribers = {"visitor"};
   request.subscriber = reader_access("orbwatch");
   make_keystore(request);
-  // His certificate is good; authority and permissions are those of a keystore of his own, where a
-  // visitor may command. His own computer believes them.
+  // The visitor's certificate is valid; authority and permissions come from the visitor's own
+  // keystore, in which a visitor may command. The visitor's own computer accepts them.
   request.folder = folder_ / "forged";
   request.subscriber = controller_access("orbwatch");
   make_keystore(request);
@@ -267,7 +267,7 @@ TEST_F(SecureNetwork, KeysOfAnotherAuthorityAreWorthNothing) {
   const auto others = make_keystore(keystore_request(folder_ / "others"));
   const ImageReader stranger(sensor_msgs_msg_dds__Image__desc, front_topic(), frame_qos(),
                              kSecondPeer, keys_of(others, "subscriber"));
-  // His friend, whom he does hear.
+  // A peer from which the visitor does receive.
   const ForeignWriter friendly(kThirdPeer, sensor_msgs_msg_dds__Image__desc, front_topic(),
                                frame_qos(), keys_of(others, "appliance"));
   ASSERT_TRUE(friendly.wait_for_reader());
@@ -339,7 +339,7 @@ TEST(SecureParticipant, JoinsAgainAfterItLeft) {
   }
 }
 
-/// What a sink sends while it shows a view to a reader, as it is on the wire.
+/// Data on the wire while a sink publishes a view to a reader.
 std::string wire_text(const std::optional<SecuritySettings>& appliance,
                       const std::optional<SecuritySettings>& subscriber, const fs::path& capture) {
   {

@@ -14,7 +14,7 @@ inline std::chrono::sys_seconds this_second() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
 }
 
-/// Keys as `orbwatch dds-keys` makes them, for the domains of DdsNetwork and some more.
+/// Request for keys like those of `orbwatch dds-keys`, for the domains of DdsNetwork and some more.
 inline KeystoreRequest keystore_request(const std::filesystem::path& folder) {
   return {.folder = folder,
           .domains = {1, 9},
@@ -23,7 +23,7 @@ inline KeystoreRequest keystore_request(const std::filesystem::path& folder) {
           .bulk_topics = bulk_topics("orbwatch")};
 }
 
-/// Makes them; returns the folder.
+/// Makes the keys; returns the folder.
 inline std::filesystem::path make_keystore(const KeystoreRequest& request,
                                            std::chrono::sys_seconds now = this_second()) {
   const auto made = make_keys(request, now);

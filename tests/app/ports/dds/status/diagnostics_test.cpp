@@ -49,7 +49,7 @@ TEST_F(Diagnostics, NameEveryPartOnce) {
   for (const Diagnostic& diagnostic : all()) {
     EXPECT_TRUE(names.insert(diagnostic.name).second) << diagnostic.name;
     EXPECT_FALSE(diagnostic.message.empty()) << diagnostic.name;
-    if (diagnostic.name == "orbwatch: network") continue;  // nothing has happened
+    if (diagnostic.name == "orbwatch: network") continue;  // nothing to report
     EXPECT_FALSE(diagnostic.values.empty()) << diagnostic.name;
   }
   const std::string first(signals::kSignals[0].name), second(signals::kSignals[1].name),
@@ -159,7 +159,7 @@ TEST_F(Diagnostics, AlarmIsAsBadAsItStands) {
 
 TEST_F(Diagnostics, BoardWarnsOfWhatIsWrongNow) {
   Health& health = status_.health;
-  health.throttling = 0xf0;  // was so once
+  health.throttling = 0xf0;  // past causes only
   health.clock_synchronised = 1;
   EXPECT_EQ(level("orbwatch: health"), DiagnosticLevel::Ok);
   health.throttling = 0x01;
@@ -194,7 +194,7 @@ TEST_F(Diagnostics, KeysAreTheListsNamesWithTheirUnits) {
 
 TEST_F(Diagnostics, TheMessageHoldsThemAll) {
   DiagnosticsComposer composer("cell-7");
-  for (const std::size_t count : {12U, 1U, 5U}) {  // the memory is used again
+  for (const std::size_t count : {12U, 1U, 5U}) {  // memory is reused
     auto diagnostics = all();
     diagnostics.resize(count);
     const DiagnosticsMessage& message = composer.compose(diagnostics, {17, 18});

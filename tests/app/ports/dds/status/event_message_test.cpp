@@ -138,7 +138,7 @@ TEST_F(EventMessageTest, LateJoinersGetTheLastOnesInOrder) {
 
 TEST_F(EventMessageTest, TooManyAtOnceAreCounted) {
   std::uint64_t noted = 0;
-  // The sink writes as fast as it can; sooner or later it is too slow for this.
+  // The sink writes as fast as possible, but eventually it is too slow for this rate.
   ASSERT_TRUE(eventually([&] {
     for (int i = 0; i < 1000; ++i) sink_.accept_event(make_notice(++noted));
     return sink_.statistics().dropped_events > 0;

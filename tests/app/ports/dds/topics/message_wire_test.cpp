@@ -1,4 +1,4 @@
-// The bytes of the messages of ROS 2, beside those that its definitions ask for.
+// Compares the bytes of the messages of ROS 2 with those required by its definitions.
 #include <gtest/gtest.h>
 
 #include "app/ports/dds/generated/compressed_image.h"
@@ -17,7 +17,7 @@ using tests::eventually;
 
 class MessageWire : public testing::Test {
  protected:
-  /// What crosses the network when `message` is written.
+  /// Data on the network when `message` is written.
   template <class Message>
   Bytes sent(const dds_topic_descriptor_t& type, const Message& message) {
     EXPECT_TRUE(network_.valid());
@@ -37,7 +37,7 @@ class MessageWire : public testing::Test {
   }
 
   tests::DdsNetwork network_;
-  std::string type_;  ///< as announced
+  std::string type_;  ///< announced type name
   std::string frame_ = "front";
 };
 

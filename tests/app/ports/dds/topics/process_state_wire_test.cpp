@@ -1,4 +1,4 @@
-// The topics on the wire: names, types, QoS and the bytes of a sample.
+// Topics on the wire: names, types, QoS and the bytes of a sample.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -85,7 +85,7 @@ TEST_F(WireFormatTest, ImageIsPlainCdr) {
   EXPECT_EQ(sample.payload, expected.bytes());
 }
 
-/// Up to its figures.
+/// Appends a component up to its figures.
 Cdr& component(Cdr& cdr, std::string_view kind, std::string_view name, std::uint32_t figures) {
   return cdr.text(kind).text(name).number(figures);
 }
@@ -99,7 +99,7 @@ TEST_F(WireFormatTest, StateIsPlainCdr) {
   Status status = tests::make_status();
   status.frame_set = 0;  // no stamp
   status.region_count = status.alarm_count = status.camera_count = status.view_count = 1;
-  // No ages, which grow.
+  // Unset, because ages increase.
   status.stamp = status.cameras[0].last_frame = status.alarms[0].since = {};
   sink_.accept(status);
   Sample sample;

@@ -20,7 +20,7 @@ std::string committed(const std::string& name) {
   return text.str();
 }
 
-/// The fields of one line as RFC 4180 has them.
+/// Parses the fields of one line by RFC 4180.
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> list(1);
   bool quoted = false;

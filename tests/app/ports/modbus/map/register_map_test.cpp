@@ -114,7 +114,7 @@ const Row& row_named(const std::string& name) {
   return *found;
 }
 
-/// Where PLC programs expect them: a row that moves needs another map version.
+/// PLC programs rely on these addresses: moving a row needs another map version.
 TEST(RegisterMap, BlocksStandWhereTheyWereDecidedToStand) {
   EXPECT_EQ(row_named("map_version").address, 0);
   EXPECT_EQ(row_named("status_bits").address, 2);

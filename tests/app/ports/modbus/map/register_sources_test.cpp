@@ -9,15 +9,15 @@
 #include "app/ports/modbus/map/bits.h"
 #include "tests/app/ports/modbus/map/registers.h"
 
-/// Every register follows what it reports, and nothing else.
+/// Tests that every register depends on its source only.
 namespace orbwatch::app::modbus {
 namespace {
 
 using std::chrono::milliseconds;
 using Names = std::set<std::string>;
 
-/// All registers without mirrors, and their names; a "?" marks bits, which words may share names
-/// with.
+/// All registers without mirrors, and their names; a "?" marks bits, because words may have the
+/// same names.
 struct Registers {
   std::vector<std::string> names;
   std::vector<const Row*> rows;
@@ -59,7 +59,7 @@ void measure_something(StampedStatus& stamped, double share) {
   }
 }
 
-/// Everything is there and works.
+/// An image in which everything is present and works.
 ProcessImage full_image() {
   ProcessImage image;
   image.now = hal::TimePoint{} + std::chrono::hours(100);
@@ -105,7 +105,7 @@ Names operator+(Names a, const Names& b) {
   return a;
 }
 
-/// The word of which a bit says whether this signal has a value; each block begins with one.
+/// Name of the word with the valid bit of this signal; each block begins with one.
 std::string valid_word(std::size_t signal) {
   const std::size_t first = signal < kFirstSignals ? 0 : kFirstSignals;
   return "valid_" + std::to_string(first + (signal - first) / 16 * 16);
@@ -113,7 +113,7 @@ std::string valid_word(std::size_t signal) {
 
 class RegisterSources : public testing::Test {
  protected:
-  /// This change of the image changes these registers and no others.
+  /// Expects that this change of the image changes exactly these registers.
   void expect(const std::function<void(ProcessImage&)>& change, const Names& names) {
     ProcessImage after = before_;
     change(after);
@@ -126,7 +126,7 @@ class RegisterSources : public testing::Test {
     covered_ = covered_ + names;
   }
 
-  /// What is measured in all regions of `stamped`, whose rows are called block_n_...
+  /// Expects the rows block_n_... of all regions to follow `stamped`.
   void expect_measured(const std::string& block, StampedStatus& (*stamped)(ProcessImage&),
                        const Names& also_live);
   void expect_regions(const std::string& block, StampedStatus& (*stamped)(ProcessImage&));
@@ -189,11 +189,11 @@ void RegisterSources::expect_regions(const std::string& block,
       expect([&](ProcessImage& s) { region(s).signals.*signal.member = signals::kNotValid; },
              Names{name(signal.name), name(valid_word(n))} + hot_spot);
     }
-    // An alarm that stands in this region.
+    // An active alarm in this region.
     AlarmStatus alarm{.alarm = {signals::AlarmState::Acknowledged, signals::AlarmLevel::LowWarning,
                                 signals::AlarmLevel::LowWarning, false},
                       .region = static_cast<std::uint16_t>(i)};
-    if (live) continue;  // with the alarms
+    if (live) continue;  // tested with the alarms
     expect(
         [&](ProcessImage& s) {
           stamped(s).status.alarms[9] = alarm;
@@ -340,7 +340,7 @@ void RegisterSources::expect_alarms() {
               stands + severe + asks + Names{name("level"), "alarm?", "alarms_severe"});
     expect_in(AlarmState::Acknowledged, AlarmLevel::LowWarning, AlarmLevel::LowWarning,
               stands + severe + Names{name("level"), "warning?"});
-    // Latched at what it was, although its signal has returned.
+    // Latched at its level, although its signal has returned.
     expect_in(AlarmState::LatchedUnacknowledged, AlarmLevel::None, AlarmLevel::LowAlarm,
               stands + severe + asks + Names{"alarm?", "alarms_severe"});
     expect_in(AlarmState::ReturnedUnacknowledged, AlarmLevel::None, AlarmLevel::LowAlarm,
@@ -428,7 +428,7 @@ TEST_F(RegisterSources, EveryRegisterFollowsItsSourceAndNoOther) {
   expect_alarms();
   expect_health();
   expect_server_and_plc();
-  // Only the version of the map is constant, and words for signals to come.
+  // Only the version of the map and words for future signals are constant.
   Names constant;
   for (const std::string& name : own_.names) {
     if (!covered_.contains(name)) constant.insert(name);

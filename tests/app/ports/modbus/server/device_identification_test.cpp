@@ -43,7 +43,8 @@ TEST(DeviceIdentification, NamesTheDevice) {
 
 TEST(DeviceIdentification, StreamsFromAnObjectOnAndGivesSingleOnes) {
   EXPECT_EQ(objects(*identify(Bytes{43, 14, 1, 2})).size(), 1U);
-  EXPECT_EQ(objects(*identify(Bytes{43, 14, 1, 99})).size(), 3U);  // unknown: from the beginning
+  // an unknown object: from the beginning
+  EXPECT_EQ(objects(*identify(Bytes{43, 14, 1, 99})).size(), 3U);
   const auto single = objects(*identify(Bytes{43, 14, 4, 1}));
   ASSERT_EQ(single.size(), 1U);
   EXPECT_EQ(single[0].first, 1);

@@ -13,7 +13,7 @@ using tests::rtu_frame;
 
 const Bytes kReadRequest = rtu_frame(1, {4, 0, 0, 0, 1});
 const Bytes kEchoedRead = rtu_frame(1, {4, 2, 0, 3});
-const Bytes kEchoedWrite = rtu_frame(1, {6, 0, 10, 0, 5});  // the answer is the same
+const Bytes kEchoedWrite = rtu_frame(1, {6, 0, 10, 0, 5});  // the answer is identical
 const Bytes kNothing;
 
 Bytes one_line(std::initializer_list<Bytes> parts) {
@@ -22,7 +22,7 @@ Bytes one_line(std::initializer_list<Bytes> parts) {
   return all;
 }
 
-/// A line on a clock that stands until the test moves it.
+/// A line with a clock that only the test advances.
 class EchoFilterTest : public testing::Test {
  protected:
   /// A request arrives and is answered.

@@ -13,7 +13,7 @@ namespace {
 using tests::Bytes;
 using tests::frame;
 
-/// Writes as many of the bytes as fit, then reads the whole frames.
+/// Writes as many of the bytes as fit, then reads the complete frames.
 std::size_t feed(MbapFramer& framer, std::span<const std::uint8_t> bytes,
                  std::vector<Bytes>& frames) {
   const auto room = framer.room();

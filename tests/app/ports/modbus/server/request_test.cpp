@@ -167,15 +167,17 @@ TEST(Request, DoubleWordsAreWrittenWhole) {
     const int count = static_cast<int>(values.size());
     return check(Write{{Table::Holding, address, count}, std::move(values)}, map);
   };
-  // argument_0 stands at 0, command, command_sequence and acknowledged_sequence from 11.
+  // argument_0 is at 0; command, command_sequence and acknowledged_sequence are at 11 to 13.
   EXPECT_EQ(check_write(0, {0, 1}), std::nullopt);
   EXPECT_EQ(check_write(0, {0, 1, 1, 1}), std::nullopt);
   EXPECT_EQ(check_write(0, {0}), Exception::IllegalDataAddress);
   EXPECT_EQ(check_write(1, {1}), Exception::IllegalDataAddress);
   EXPECT_EQ(check_write(1, {1, 1}), Exception::IllegalDataAddress);
-  EXPECT_EQ(check_write(12, {1, 1}), Exception::IllegalDataAddress);  // runs into a read-only one
+  // overlaps a read-only register
+  EXPECT_EQ(check_write(12, {1, 1}), Exception::IllegalDataAddress);
   EXPECT_EQ(check_write(11, {999}), Exception::IllegalDataValue);
-  EXPECT_EQ(check_write(11, {999, 1, 1}), Exception::IllegalDataAddress);  // addresses come first
+  // addresses are checked first
+  EXPECT_EQ(check_write(11, {999, 1, 1}), Exception::IllegalDataAddress);
   EXPECT_EQ(check_write(65535, {1, 1}), Exception::IllegalDataAddress);
 }
 

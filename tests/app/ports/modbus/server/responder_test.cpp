@@ -44,7 +44,7 @@ class ResponderTest : public testing::Test {
 
   Outcome answer(const Bytes& request) { return responder_->answer(*transport_, request, true); }
 
-  /// The answer to a whole frame; empty when there is none.
+  /// The answer to a complete frame; empty: none.
   Bytes exchange(const Bytes& request) {
     answered_ = answer(request);
     Bytes answer(300);
@@ -76,7 +76,7 @@ TEST_F(ResponderTest, EveryRowIsReadableAndItsMirrorReadsTheSame) {
   int not_zero = 0;
   for (const Row& row : map_.rows()) {
     if (row.table != Table::Input && row.table != Table::Discrete) continue;
-    if (row.count > 125) continue;  // reserved, more than one request reads
+    if (row.count > 125) continue;  // reserved, larger than one request
     const bool input = row.table == Table::Input;
     const Bytes direct = read(input ? 4 : 2, row.address, row.count);
     const Bytes mirror = read(input ? 3 : 1, row.address + 5000, row.count);
@@ -161,7 +161,7 @@ TEST_F(ResponderTest, AFrameThatIsAnAnswerIsNotModbus) {
 }
 
 TEST_F(ResponderTest, SaysWhenTheClientIsGone) {
-  ends_[1] = hal::FileDescriptor();  // by swap: closed at the end of this statement
+  ends_[1] = hal::FileDescriptor();  // closed at the end of this statement
   EXPECT_EQ(answer(frame({4, 0, 0, 0, 1})), Outcome::NotSent);
   EXPECT_EQ(answer(frame({4, 9, 9, 0, 1})), Outcome::NotSent);
   EXPECT_EQ(answer(frame({43, 14, 1, 0})), Outcome::NotSent);

@@ -31,7 +31,7 @@ class RtuFramerTest : public testing::Test {
     return frames;
   }
 
-  /// After the bytes the line is silent.
+  /// Pushes bytes, followed by silence of the line.
   std::vector<Bytes> push_last(const Bytes& bytes) {
     std::vector<Bytes> frames = push(bytes, kLong);
     if (!framer_.is_waiting()) return frames;
@@ -53,7 +53,7 @@ Bytes joined(std::initializer_list<Bytes> parts) {
 }
 
 TEST(RtuFrame, HasTheChecksumOfTheStandard) {
-  // Modbus over Serial Line V1.02, 6.2.2: of 02 07 it is 0x1241, sent low byte first.
+  // Modbus over Serial Line V1.02, 6.2.2: the checksum of 02 07 is 0x1241, sent low byte first.
   EXPECT_EQ(rtu_frame(2, {7}), (Bytes{2, 7, 0x41, 0x12}));
 }
 
@@ -77,7 +77,7 @@ TEST_F(RtuFramerTest, EveryFunctionsRequestIsWholeAtOnce) {
                         {22, 0, 0, 0, 1, 0, 2},
                         {23, 0, 0, 0, 1, 0, 0, 0, 1, 2, 0, 9},
                         {43, 14, 1, 0},
-                        // Not served, but to be refused:
+                        // Unsupported functions, to be refused:
                         {7},
                         {8, 0, 0, 1, 2},
                         {20, 3, 6, 0, 1},
@@ -127,7 +127,7 @@ TEST_F(RtuFramerTest, AWrongChecksumIsNoFrameAndCostsNoOther) {
 }
 
 TEST_F(RtuFramerTest, AfterNoiseAPauseIsEnough) {
-  // A driver that switches off leaves such a byte.
+  // A driver that switches off causes such a byte.
   for (int byte = 0; byte < 256; ++byte) {
     EXPECT_EQ(push({static_cast<std::uint8_t>(byte)}, kPause), Frames{});
     EXPECT_EQ(push(kRead, kPause), Frames{kRead}) << byte;
@@ -164,7 +164,7 @@ TEST_F(RtuFramerTest, FromNoiseNoFrameIsMadeAndAfterItTheNextIsFound) {
       ASSERT_EQ(push(kRead, kLong), Frames{kRead});
     }
   }
-  // By chance one in 65536 of those with our unit has a right checksum, at each of some places.
+  // By chance one in 65536 of those with our unit has a valid checksum, at each of several places.
   EXPECT_LT(made, cases / 200);
   EXPECT_GT(framer_.errors(), static_cast<unsigned>(cases / 2));
 }
@@ -228,7 +228,7 @@ TEST_F(RtuFramerTest, ARequestBehindMuchNoiseIsFoundWhereverAdaptersCutIt) {
     while (const auto frame = framer_.next()) frames.emplace_back(frame->begin(), frame->end());
     found += !frames.empty() && frames.back() == kRead ? 1 : 0;
   }
-  // By chance one in 65536 of the longer endings has a right checksum, too.
+  // By chance one in 65536 of the longer endings also has a valid checksum.
   EXPECT_GE(found, kLines - 4);
 }
 
@@ -243,7 +243,7 @@ TEST_F(RtuFramerTest, ARequestInsideAnotherUnitsFrameIsNotAnswered) {
   damaged[3] ^= 1;
   EXPECT_EQ(push_last(damaged), Frames{});
   EXPECT_EQ(push_last(joined({{0xff}, rtu_frame(3, {4, 0, 0, 0, 1})})), Frames{});
-  // Cut anywhere, with pauses as adapters make them but in front of the inner one.
+  // Cut anywhere, with pauses like those of adapters except before the inner frame.
   for (std::size_t at = 1; at < other.size(); ++at) {
     const auto middle = other.begin() + static_cast<std::ptrdiff_t>(at);
     EXPECT_EQ(push(joined({{0xff}, Bytes(other.begin(), middle)}), kLong), Frames{}) << at;
@@ -253,7 +253,7 @@ TEST_F(RtuFramerTest, ARequestInsideAnotherUnitsFrameIsNotAnswered) {
   }
 }
 
-/// Bytes in front of a frame that leave its checksum as it is.
+/// Bytes in front of a frame that do not change its checksum.
 Bytes neutral_bytes() {
   for (int first = 0; first < 256; ++first) {
     for (int second = 0; second < 256; ++second) {

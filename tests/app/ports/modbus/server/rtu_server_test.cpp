@@ -32,7 +32,7 @@ constexpr int kUnit = 17;
 constexpr const char* kPython = "/usr/bin/python3";  // Debian's, for which its pymodbus is built
 constexpr const char* kPymodbus = "/usr/lib/python3/dist-packages/pymodbus/client/serial.py";
 
-/// The whole server, on a cable to the test.
+/// The complete server, connected to the test by a cable.
 class ModbusRtu : public testing::Test {
  protected:
   void start(bool may_write = true) {
@@ -62,11 +62,11 @@ class ModbusRtu : public testing::Test {
 
   orbwatch::tests::TemporaryFolder folder_;
   tests::SerialCable cable_;
-  std::vector<int> carried_out_;  ///< arguments of commands; to be looked at after stop()
+  std::vector<int> carried_out_;  ///< arguments of commands; read after stop()
   std::unique_ptr<ModbusSink> sink_;
 };
 
-/// Selects view 2, as the request of function 16.
+/// Request of function 16 that selects view 2.
 Bytes command(std::uint8_t sequence) {
   Bytes pdu{16, 0, 0, 0, 13, 26};
   for (const std::uint16_t word : tests::select_view(2, sequence)) {
@@ -171,7 +171,7 @@ TEST_F(ModbusRtu, IsSilentAboutWhatIsNotForIt) {
   }
   EXPECT_TRUE(eventually(
       [&] { return statistics().serial_errors == 1 && statistics().serial_other_units == 1; }));
-  // An answer to them would arrive first.
+  // An answer to them would have arrived first.
   const Bytes request = rtu_frame(kUnit, kReadVersion);
   EXPECT_TRUE(eventually([&] {
     master.send(request);
@@ -249,13 +249,13 @@ TEST_F(ModbusRtu, AMasterThatNeverReadsStopsNobody) {
   }
 }
 
-/// The master's end of a line whose adapter receives what the appliance sends: each answer comes
-/// back to it, in pieces of `piece` bytes, in front of the next request.
+/// Master on a line whose adapter echoes the appliance's answers, in pieces of `piece` bytes,
+/// before the next request.
 class EchoingMaster {
  public:
   explicit EchoingMaster(const std::string& path) : master_(path) {}
 
-  /// The answer; returned to its sender.
+  /// The answer, which is echoed to its sender.
   Bytes ask(const Bytes& request, std::size_t size, std::size_t piece) {
     master_.send(request);
     const Bytes answer = master_.receive(size);
@@ -327,7 +327,7 @@ TEST_F(ModbusRtu, ARequestBehindStrayBytesIsAnswered) {
   }
 }
 
-/// A PLC commands on the serial line while another program has the port of Modbus TCP.
+/// A PLC commands over the serial line while another program uses the port of Modbus TCP.
 TEST_F(ModbusRtu, ASilentPlcIsSupervisedWithoutTcp) {
   ModbusSink other(tests::loopback(), tests::accept_all);
   ASSERT_TRUE(other.start());

@@ -23,7 +23,7 @@ using tests::RawClient;
 const Bytes kRead = frame({4, 0, 0, 0, 1});
 const Bytes kAnswer{4, 2, 0, modbus::kMapVersion};
 
-/// A server with one well-behaved client, which must never notice what the others do.
+/// A server with one well-behaved client, which the others must not affect.
 class ModbusAbuse : public testing::Test {
  protected:
   void start(const ModbusSettings& settings) {
@@ -72,7 +72,7 @@ TEST_F(ModbusAbuse, FramesCutAnywhereAreAnswered) {
   RawClient client(port());
   for (std::size_t cut = 1; cut < kRead.size(); ++cut) {
     ASSERT_TRUE(client.send(Bytes(kRead.begin(), kRead.begin() + static_cast<long>(cut))));
-    ASSERT_TRUE(plc_is_served());  // the server received the first part alone
+    ASSERT_TRUE(plc_is_served());  // the server received the first part only
     ASSERT_TRUE(client.send(Bytes(kRead.begin() + static_cast<long>(cut), kRead.end())));
     EXPECT_EQ(tests::receive_pdu(client), kAnswer) << cut;
   }
@@ -107,7 +107,7 @@ TEST_F(ModbusAbuse, ADripFeedingClientDelaysNobodyAndIsDropped) {
   bool is_open = true;
   for (std::size_t i = 0; is_open && i + 1 < longest.size(); ++i) {
     is_open = dripping.send({longest[i]});
-    // Slow enough that the whole frame would take several times the time-out.
+    // Slow enough that the complete frame would take several times the timeout.
     const auto next = hal::Clock::now() + milliseconds(2);
     do {
       ASSERT_TRUE(plc_is_served());
@@ -123,7 +123,7 @@ TEST_F(ModbusAbuse, HalfAFrameIsDroppedInTime) {
   settings.frame_timeout = std::chrono::milliseconds(20);
   start(settings);
   RawClient half(port());
-  // A whole request first: the time counts from the first byte of each one.
+  // A complete request comes first, because the time counts from the first byte of each request.
   Bytes bytes = kRead;
   bytes.insert(bytes.end(), kRead.begin(), kRead.begin() + 9);
   ASSERT_TRUE(half.send(bytes));
@@ -141,7 +141,7 @@ TEST_F(ModbusAbuse, AStreamOfRequestsThatIsNeverAtRestIsNoPartialFrame) {
   Bytes next(kRead.begin() + 5, kRead.end());
   next.insert(next.end(), first_half.begin(), first_half.end());
   ASSERT_TRUE(streaming.send(first_half));
-  // In the server there is the beginning of some request all the time, but never an old one.
+  // The server always has a partial request, but never an old one.
   const auto end = hal::Clock::now() + std::chrono::milliseconds(2500);
   while (hal::Clock::now() < end) {
     ASSERT_TRUE(streaming.send(next));
@@ -149,8 +149,8 @@ TEST_F(ModbusAbuse, AStreamOfRequestsThatIsNeverAtRestIsNoPartialFrame) {
   }
 }
 
-/// The timer that the kernel runs for the server's end of its one connection, by
-/// /proc/net/tcp: 2 is keep-alive's.
+/// The kernel's timer for the server's end of its only connection, from /proc/net/tcp; 2:
+/// keep-alive.
 std::string timer_of_connection(int port) {
   std::ifstream sockets("/proc/self/net/tcp");
   std::ostringstream local;
@@ -170,7 +170,7 @@ TEST_F(ModbusAbuse, AnIdleConnectionStaysAndIsProbed) {
   settings.idle_time = std::chrono::milliseconds(1);
   start(settings);
   const auto connected = statistics().answered;
-  // The server's loop turns after the time is over.
+  // Makes the server's loop run after the time has expired.
   RawClient other(port());
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(other.send(kRead));
@@ -227,7 +227,7 @@ TEST_F(ModbusAbuse, WhenThereAreTooManyTheOneThatWasQuietLongestGoes) {
     ASSERT_TRUE(client->send(kRead));
     ASSERT_EQ(tests::receive_pdu(*client), kAnswer);
   }
-  ASSERT_TRUE(plc_is_served());  // so the first is not the quietest any more
+  ASSERT_TRUE(plc_is_served());  // so that the first is no longer idle longest
   RawClient fourth(port());
   ASSERT_TRUE(fourth.send(kRead));
   EXPECT_EQ(tests::receive_pdu(fourth), kAnswer);
@@ -319,7 +319,7 @@ TEST_F(ModbusAbuse, ConnectionsThatAskNothingDoNotPushThePlcOut) {
   EXPECT_EQ(statistics().connections, 4U);
 }
 
-/// While it lives the process gets no more file descriptors.
+/// Prevents the process from opening file descriptors during its lifetime.
 class NoMoreFiles {
  public:
   NoMoreFiles() {

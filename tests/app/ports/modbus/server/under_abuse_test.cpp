@@ -20,11 +20,10 @@ using std::chrono::seconds;
 using tests::eventually;
 using tests::Plc;
 
-/// The abuse, and whether its clients may write like the PLC, as everybody may unless configured
-/// otherwise.
+/// An abuse, and whether its clients have the PLC's permission to write.
 using Case = std::tuple<orbwatch::tests::Abuse, bool>;
 
-/// Random frames come for a minute, or the share of it that runs.
+/// Duration of an abuse: random frames for a minute, or the share of it that runs.
 seconds duration(const Case& abuse) {
   const bool is_long = std::get<0>(abuse).name == "random frames" && std::get<1>(abuse);
   return seconds(is_long && !orbwatch::tests::kHasThreadSanitizer ? orbwatch::tests::share_of(60)
@@ -35,7 +34,7 @@ std::ptrdiff_t open_files() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
 }
 
-/// Bytes in memory now.
+/// Resident memory, bytes.
 long resident() {
   std::ifstream file("/proc/self/statm");
   long size = 0;
