@@ -22,7 +22,7 @@ const std::string kTokenHeader = "Authorization: Bearer " + std::string(kToken) 
 
 Bytes bytes(std::string_view text) { return {text.begin(), text.end()}; }
 
-/// Asks for pictures and never reads them.
+/// Requests a stream of pictures and never reads it.
 struct AskForStream {
   const Bytes kRequest = bytes(request_text("GET", "/stream.mjpg?view=front", kTokenHeader));
   void operator()(Returning& client) {

@@ -8,11 +8,11 @@
 
 namespace orbwatch::app::web::tests {
 
-/// The users whose passwords are guessed, and a program that may look; to be called before the
-/// server starts. Returns the header by which the program is known.
+/// Adds the users whose passwords are guessed, and a program with the role viewer; to be called
+/// before the server starts. Returns the header with the program's token.
 std::string add_users(const std::filesystem::path& state_folder);
 
-/// Ways to abuse the web server, which shows a view `front` and has those users.
+/// Ways to abuse the web server, which has a view `front` and those users.
 std::span<const orbwatch::tests::Abuse> abuses();
 
 }  // namespace orbwatch::app::web::tests

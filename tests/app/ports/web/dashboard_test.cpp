@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Of the dashboard that is shipped: a query, and the panel that it is for.
+/// Queries of the shipped dashboard, with their panels.
 std::vector<std::pair<std::string, std::string>> queries() {
   std::ifstream in(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/grafana/orbwatch.json");
   std::vector<std::pair<std::string, std::string>> all;
@@ -26,7 +26,7 @@ std::vector<std::pair<std::string, std::string>> queries() {
   return all;
 }
 
-/// As the interfaces count.
+/// Example counters of the interfaces.
 std::vector<InterfaceMetric> interface_metrics() {
   std::vector<InterfaceMetric> all;
   add_metrics(all, {"modbus"}, modbus::ServerStatus{}, {});

@@ -5,7 +5,7 @@
 
 #include "tests/app/ports/web/served.h"
 
-/// Clients that mean harm, all on loopback and bounded in number and time.
+/// Malicious clients, all on loopback and bounded in number and time.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -28,7 +28,7 @@ class Hostile : public Served {
 
 TEST_F(Hostile, GarbageIsRefusedOrCutOff) {
   start(hurried());
-  std::mt19937 random(1);  // NOLINT(bugprone-random-generator-seed): the same every time
+  std::mt19937 random(1);  // NOLINT(bugprone-random-generator-seed): reproducible
   for (int i = 0; i < 120; ++i) {
     std::string bytes(1 + random() % 2000, '\0');
     for (char& c : bytes) c = static_cast<char>(random());
@@ -74,7 +74,7 @@ TEST_F(Hostile, BodiesBeyondTheLimitAreRefused) {
     const int status = client.answer().status;
     EXPECT_TRUE(status == 413 || status == 400) << length << " " << status;
   }
-  // In chunks no length is stated.
+  // Chunked bodies state no length.
   Client chunked(port());
   chunked.send("POST /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n");
   const std::string chunk = "4000\r\n" + std::string(0x4000, 'x') + "\r\n";
@@ -99,7 +99,7 @@ TEST_F(Hostile, RequestsThatArriveByteByByteAreCutOff) {
     clients.back()->send("GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX: ");
   }
   EXPECT_EQ(get(port(), "/healthz").status, 200) << "meanwhile";
-  // They go on sending, so that none is silent.
+  // They continue to send, so that none is silent.
   EXPECT_TRUE(eventually([&] {
     for (const auto& client : clients) client->send("x");
     return sink->statistics().overdue >= 200;
@@ -109,14 +109,15 @@ TEST_F(Hostile, RequestsThatArriveByteByByteAreCutOff) {
 TEST_F(Hostile, OneAddressTakesNoMoreThanItsShare) {
   WebSettings settings;
   settings.max_connections_per_address = 8;
-  // Longer than a busy machine takes to connect all: those that are overdue make room for others.
+  // Longer than a busy machine needs to connect all clients, because overdue ones make room for
+  // others.
   settings.request_timeout = std::chrono::milliseconds(2000);
   start(settings);
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < 100; ++i) clients.push_back(std::make_unique<Client>(port()));
-  // Those beyond are closed at once, the others after their time.
+  // Clients beyond the limit are closed at once, the others after their time limit.
   for (const auto& client : clients) EXPECT_EQ(client->rest(), "");
-  // They are counted once all that are overdue are closed.
+  // Counts are complete once all overdue connections are closed.
   EXPECT_TRUE(eventually([&] {
     const auto statistics = sink->statistics();
     return statistics.overdue + statistics.turned_away == 100;
@@ -137,11 +138,11 @@ TEST_F(Hostile, StreamsAreLimited) {
   EXPECT_EQ(sink->statistics().streams_refused, 1U);
 }
 
-/// The pipeline's thread only leaves pictures behind, and a fast reader gets every one of them,
-/// while a hundred others hardly read.
+/// The pipeline's thread only stores pictures, and a fast reader gets every one of them, while a
+/// hundred others hardly read.
 TEST_F(Hostile, SlowReadersDelayNobody) {
   WebSettings settings = hurried();
-  settings.request_timeout = std::chrono::minutes(1);  // no reader is ended for being slow
+  settings.request_timeout = std::chrono::minutes(1);  // slow readers are not ended
   start(settings);
   constexpr int kReceiveBuffer = 4096;
   std::vector<std::unique_ptr<Client>> slow;
@@ -167,7 +168,7 @@ TEST_F(Hostile, SlowReadersDelayNobody) {
   }
   EXPECT_LT(sink->statistics().pictures_sent, 101U * kPictures / 2) << "they read it all";
   EXPECT_EQ(sink->statistics().pictures_replaced, 0U);
-  // One that begins to read goes on with the newest, without what was in between.
+  // A reader that starts to read continues with the newest picture, without those in between.
   while (sink->statistics().pictures_skipped == 0) {
     ASSERT_NE(slow.front()->take_until("--orbwatch\r\n"), "");
   }

@@ -19,15 +19,15 @@ namespace orbwatch::app::web::tests {
 
 inline const std::string kJsonHeader = "Content-Type: application/json\r\n";
 
-/// What a server answered.
+/// Answer of a server.
 struct Answer {
-  int status = 0;  ///< 0: nothing that begins like an answer
+  int status = 0;  ///< 0: not an HTTP answer
   std::map<std::string, std::string> headers;
   std::string body;
 };
 
-/// A client that sends exactly what it is told over one connection, by default to 127.0.0.1. Gives
-/// a read up after 20 s.
+/// A client that sends raw bytes over one connection, by default to 127.0.0.1. Reads time out after
+/// 20 s.
 class Client {
  public:
   explicit Client(int port, int receive_buffer = 0, const char* host = "127.0.0.1")
@@ -47,7 +47,7 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// False: the server has closed.
+  /// Sends bytes. False: the server has closed.
   bool send(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t sent = write(bytes);
@@ -57,7 +57,7 @@ class Client {
     return true;
   }
 
-  /// Reads until what was received contains `text`; false: it ended before.
+  /// Reads until the received data contains `text`; false: the connection ended before.
   bool receive_until(std::string_view text) {
     while (received_.find(text) == std::string::npos) {
       if (!receive()) return false;
@@ -65,7 +65,7 @@ class Client {
     return true;
   }
 
-  /// Takes the next `count` bytes; fewer: it ended before.
+  /// Takes the next `count` bytes; fewer: the connection ended before.
   std::string take(std::size_t count) {
     while (received_.size() < count && receive()) {
     }
@@ -74,13 +74,13 @@ class Client {
     return taken;
   }
 
-  /// Takes what comes before `text`, and `text`.
+  /// Takes the data up to and including `text`.
   std::string take_until(std::string_view text) {
     const bool found = receive_until(text);
     return take(found ? received_.find(text) + text.size() : received_.size());
   }
 
-  /// Everything until the server closes.
+  /// Reads everything until the server closes.
   std::string rest() {
     while (receive()) {
     }
@@ -110,7 +110,7 @@ class Client {
   int get() const { return socket_.get(); }
 
  protected:
-  /// How much; 0 or less: the server has closed.
+  /// Returns the number of bytes written; 0 or less: the server has closed.
   virtual ssize_t write(std::string_view bytes) const {
     return ::send(get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
@@ -129,7 +129,7 @@ class Client {
   std::string received_;
 };
 
-/// A request as a browser on this computer sends it.
+/// A request in the form of a browser on this computer.
 inline std::string request_text(std::string_view method, std::string_view target,
                                 const std::string& headers = "", std::string_view body = "") {
   std::string text = std::string(method) + " " + std::string(target) +

@@ -59,12 +59,13 @@ class Served : public testing::Test {
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!condition()) {
       if (std::chrono::steady_clock::now() > give_up) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // polls a real server
+      // interval of polling a real server
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return true;
   }
 
-  /// Waits until the view is read, and passes a picture on as the pipeline does.
+  /// Waits until the view has readers, and passes a picture like the pipeline.
   void show(std::uint64_t frame_set, int width = 64, int height = 48, std::size_t index = 0) const {
     const auto view = make_view(index, index == 0 ? "front" : "wide", frame_set, width, height);
     ASSERT_TRUE(eventually([&] { return sink->needs(index, view->stamp).jpeg; }));
@@ -73,7 +74,7 @@ class Served : public testing::Test {
 
   std::filesystem::path state_folder;  ///< empty: no users
   CommandHandler handler;
-  Program program;                                        ///< nothing
+  Program program;                                        ///< empty
   std::function<std::vector<InterfaceTable>()> tables;    ///< empty: none
   std::function<std::vector<InterfaceMetric>()> metrics;  ///< empty: none
   std::shared_ptr<Fleet> fleet;                           ///< null: no DDS

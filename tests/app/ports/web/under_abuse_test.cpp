@@ -13,7 +13,7 @@
 namespace orbwatch::app::web::tests {
 namespace {
 
-/// Made before, so that whoever hands over waits for no memory.
+/// Pictures made in advance, so that passing them does not wait for memory.
 class SmallPictures final : public app::tests::Pace {
  public:
   explicit SmallPictures(WebSink& sink) : sink_(sink) {
@@ -33,7 +33,7 @@ class SmallPictures final : public app::tests::Pace {
 
 class WebUnderAbuse : public Served, public testing::WithParamInterface<orbwatch::tests::Abuse> {
  protected:
-  ~WebUnderAbuse() override { sink.reset(); }  // it writes to the folder until it ends
+  ~WebUnderAbuse() override { sink.reset(); }  // the sink writes to the folder until its end
   const orbwatch::tests::TemporaryFolder folder_;
 };
 
@@ -57,8 +57,8 @@ TEST_P(WebUnderAbuse, OthersAreAnsweredAndThePipelineDoesNotWait) {
     }
     EXPECT_TRUE(eventually([&] { return abused.acts() > 10; }));
   }
-  // Another thread may hold a lock for a moment when the scheduler takes its processor away; under
-  // sanitizers threads also wait for each other's memory.
+  // Another thread may be preempted while it briefly holds a lock; under sanitizers threads also
+  // contend for memory.
   if (!orbwatch::tests::kIsSanitized) {
     EXPECT_LE(pictures.waits(), pictures.accepted() / 20);
   }

@@ -38,7 +38,7 @@ double difference(const std::string& jpeg, const View& view) {
   return sum / (3.0 * got.cols * got.rows);
 }
 
-/// A picture that JPEG keeps: one colour.
+/// A picture of one colour, which JPEG preserves.
 std::shared_ptr<View> plain_view(std::uint8_t level, std::size_t index = 0) {
   auto view = make_view(index, "front", level, 64, 48);
   std::fill(view->bytes.begin(), view->bytes.end(), level);
@@ -223,13 +223,13 @@ TEST_F(Served, AStreamThatIsClosedIsNotEncodedFor) {
     client.take_until("\r\n\r\n");
     EXPECT_TRUE(sink->needs(0, hal::Clock::now()).jpeg);
   }
-  // Although no picture comes any more.
+  // Holds although no further picture arrives.
   EXPECT_TRUE(eventually([&] { return !sink->needs(0, hal::Clock::now()).jpeg; }));
   EXPECT_TRUE(eventually([&] { return sink->statistics().connections == 0; }));
   EXPECT_EQ(sink->statistics().streams, 0U);
 }
 
-/// Although nothing else happens that would wake the threads of the library.
+/// They are closed although no other event wakes the threads of the library.
 TEST_F(Served, StreamsWhoseReadersHaveGoneAreClosedBesideQuietConnections) {
   WebSettings settings;
   settings.request_timeout = std::chrono::minutes(1);

@@ -5,7 +5,7 @@
 #include "app/state/private_file.h"
 #include "tests/app/ports/web/access/access_served.h"
 
-/// Logging in and what the administrator does, over the server.
+/// Tests of login and of the administrator's routes, over the server.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -109,7 +109,7 @@ TEST_F(AccessRoutes, ATokenIsToldOnceAndEndsWithItsStreamWhenItIsRevoked) {
   EXPECT_THAT(stream.take_until("\r\n\r\n"), testing::StartsWith("HTTP/1.1 200"));
   EXPECT_EQ(post("/api/v1/revoke_token", R"({"name":"grafana"})", admin).status, 200);
   EXPECT_EQ(get(port(), "/metrics", bearer).status, 401);
-  stream.rest();  // until the server closes
+  stream.rest();  // reads until the server closes
   EXPECT_TRUE(eventually([&] { return sink->statistics().streams == 0; }));
   EXPECT_EQ(post("/api/v1/revoke_token", R"({"name":"grafana"})", admin).status, 409);
 }
@@ -150,7 +150,7 @@ TEST_F(AccessRoutes, APasswordSetByAnotherProcessCountsSoon) {
   EXPECT_EQ(login("viewer", "forgotten no more").status, 200);
 }
 
-/// Until the server reads the file again.
+/// The file is changed before the server reads it again.
 TEST_F(AccessRoutes, ThisComputerMakesNoTokenOnceAPasswordIsSet) {
   start();
   EXPECT_EQ(get(port(), "/api/v1/users").status, 200);
@@ -169,7 +169,7 @@ TEST_F(AccessRoutes, BeforeTheFirstPasswordLoginsAreRefusedAtOnceAndLimited) {
   EXPECT_EQ(login("administrator", kPassword).status, 200) << "the limit is of refusals only";
 }
 
-/// Of all that an administrator can read.
+/// Checks all routes that an administrator can read.
 TEST_F(AccessRoutes, NoReplyHoldsASecret) {
   add_one_of_each_role();
   start();
@@ -193,7 +193,8 @@ TEST_F(AccessRoutes, NoReplyHoldsASecret) {
   EXPECT_EQ(json::parse(listed.body)["tokens"].size(), kRoles.size());
 }
 
-/// Guesses by many at once are refused by one means or another, and others are served meanwhile.
+/// Simultaneous guesses by many clients are refused by one limit or another, and other clients are
+/// served meanwhile.
 TEST_F(AccessRoutes, AFloodOfLoginsDelaysNobodyElse) {
   add_one_of_each_role();
   WebSettings settings;

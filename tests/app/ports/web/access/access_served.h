@@ -12,19 +12,19 @@
 namespace orbwatch::app::web::tests {
 
 inline const std::string kPassword = "correct horse battery";
-/// Who is not at the board itself.
+/// Address of a client that is not the board itself.
 inline const std::string kPeer = "10.0.0.9";
-/// What the page's own scripts send with a change.
+/// Headers that the page's own scripts send with a change.
 inline const std::string kPageHeaders = kJsonHeader + "X-Orbwatch: page\r\n";
 
-/// A sink that serves with a state folder, and with a user and a token of each role once asked for.
+/// A sink with a state folder, and on request with a user and a token of each role.
 class AccessServed : public Served {
  protected:
   void SetUp() override { state_folder = folder.path(); }
-  /// The sink writes to the folder until it ends.
+  /// Destroys the sink first, which writes to the folder until its end.
   ~AccessServed() override { sink.reset(); }
 
-  /// The user and the token of a role have its name.
+  /// Adds a user and a token for each role, named like the role.
   void add_one_of_each_role() {
     const std::string hash = hash_password(kPassword).value();
     ASSERT_TRUE(change_users(users_file(state_folder), [&](Users& users) {
@@ -38,7 +38,7 @@ class AccessServed : public Served {
     }));
   }
 
-  /// The headers of a program with a role; none of Nobody.
+  /// Headers of a program with a role; empty for Nobody.
   std::string by_token(Role role) const {
     return role == Role::Nobody ? "" : "Authorization: Bearer " + tokens.at(role) + "\r\n";
   }
@@ -49,7 +49,7 @@ class AccessServed : public Served {
     return post("/api/v1/login", nlohmann::json{{"user", user}, {"password", password}}.dump(),
                 kPageHeaders);
   }
-  /// The header of a session that an answer begins.
+  /// Cookie header for the session that an answer starts.
   static std::string cookie_of(const Answer& answer) {
     const auto found = answer.headers.find("Set-Cookie");
     if (found == answer.headers.end()) return "";

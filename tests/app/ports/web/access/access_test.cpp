@@ -27,7 +27,7 @@ class AccessTest : public testing::Test {
     access->start();
   }
   void add(const std::string& name, Role role) const {
-    // By another process, as `orbwatch password` does.
+    // Changed by another process, like `orbwatch password`.
     ASSERT_TRUE(change_users(users_file(folder.path()), [&](Users& users) {
       return set_user(users, name, role, hash_password(kPassword).value());
     }));
@@ -96,7 +96,7 @@ TEST_F(AccessTest, AUserWhoIsRemovedOrHasANewPasswordIsLoggedOut) {
   }));
   EXPECT_EQ(by_session(kim).role, Role::Nobody);
   EXPECT_EQ(by_session(admin).role, Role::Administrator);
-  add("admin", Role::Administrator);  // the same password, hashed anew
+  add("admin", Role::Administrator);  // the same password, hashed again
   EXPECT_EQ(by_session(admin).role, Role::Nobody);
 }
 
@@ -167,7 +167,7 @@ TEST_F(AccessTest, AFileThatCannotBeUsedLetsNobodyIn) {
   EXPECT_THAT(refused.error().what, HasSubstr("600 by chmod"));
 }
 
-/// The state folder was unmounted, or somebody has removed the file.
+/// The state folder was unmounted, or the file was removed.
 TEST_F(AccessTest, UsersThatAreGoneLetNobodyInAlsoAfterARestart) {
   add("admin", Role::Administrator);
   std::filesystem::rename(users_file(folder.path()), folder / "elsewhere");
@@ -195,7 +195,7 @@ TEST_F(AccessTest, AFolderThatVanishesOpensNoDoor) {
   EXPECT_TRUE(access->login("admin", kPassword, kPeer));
 }
 
-/// The end makes the folder anew, for the failures that it keeps.
+/// The end creates the folder again, to save failures.
 TEST_F(AccessTest, AFolderThatVanishedOpensNoDoorAfterARestart) {
   add("admin", Role::Administrator);
   std::filesystem::remove_all(folder.path());
@@ -213,7 +213,7 @@ TEST_F(AccessTest, APasswordSetAtTheBoardReplacesUsersThatAreGone) {
   EXPECT_TRUE(access->login("admin", kPassword, kPeer));
 }
 
-/// Before the file is read again.
+/// Trust ends before the file is read again.
 TEST_F(AccessTest, TrustEndsWithThePasswordAtOnce) {
   EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Administrator);
   ASSERT_TRUE(change_users(users_file(folder.path()), [&](Users& users) {
@@ -225,7 +225,7 @@ TEST_F(AccessTest, TrustEndsWithThePasswordAtOnce) {
 class Guessed : public AccessTest {
  protected:
   static std::string guesser(int number) { return "10.0.1." + std::to_string(number); }
-  /// From 16 addresses, each as often as it may, for a while.
+  /// Guesses from 16 addresses, each as often as permitted, for `duration`.
   void guess(seconds duration) {
     for (const Utc end = now + duration; now < end; now += seconds(1)) {
       for (int i = 0; i < 16; ++i) {

@@ -154,7 +154,7 @@ class AuditServed : public AccessServed {
     return json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body)["entries"];
   }
 
-  Giver giver;  ///< of the newest command; read after its answer
+  Giver giver;  ///< origin of the newest command; read after its answer
 };
 
 TEST_F(AuditServed, SaysWhoDidWhat) {
@@ -205,7 +205,7 @@ TEST_F(AuditServed, GuessesAreNotedOnceAndCounted) {
   EXPECT_EQ(all[1]["after"], "administrator: administrator");
 }
 
-/// Neither the disk nor the desk is asked for: `busy` would be 503.
+/// Neither the disk nor the desk is needed: `busy` would give 503.
 TEST_F(AuditServed, WhoHasNoAccountPushesNothingOut) {
   const std::string body = json{{"code", "AAAA-AAAA"}, {"password", kPassword}}.dump();
   std::map<int, int> answers;
@@ -244,7 +244,7 @@ TEST_F(AuditServed, LoggingOutWithoutASessionIsNoAct) {
   EXPECT_EQ(shown().back()["what"], "logout");
 }
 
-/// Changes of users are told apart, however many there are.
+/// Changes of different users are recorded separately, however many there are.
 TEST_F(AuditServed, EveryUserThatIsAddedIsNoted) {
   const std::string admin = by_token(Role::Administrator) + kJsonHeader;
   constexpr int kAdded = 30;

@@ -19,7 +19,7 @@ void fail_often(LoginLimits& limits, const LoginAttempt& attempt, int times, Utc
   for (int i = 0; i < times; ++i) limits.failed(attempt, now);
 }
 
-/// From 16 addresses, as often as each may.
+/// Guesses from 16 addresses, each as often as permitted.
 Utc guess_from_many(LoginLimits& limits, const std::string& name, Utc now, seconds duration) {
   for (const Utc end = now + duration; now < end; now += seconds(1)) {
     for (int i = 0; i < 16; ++i) {
@@ -58,7 +58,7 @@ TEST(LoginLimits, AnHourForgets) {
   }
 }
 
-/// A board without a battery begins in the past.
+/// A board without a battery starts in the past.
 TEST(LoginLimits, AClockThatIsSetLocksNobodyOut) {
   LoginLimits limits;
   fail_often(limits, kAdminThere, 100);
@@ -159,7 +159,7 @@ TEST(LoginLimits, AUserHasFewFamiliarAddresses) {
   for (std::size_t i = 0; i < LoginLimits::kMostFamiliarOfName; ++i) {
     limits.succeeded({"kim", "10.0.1." + std::to_string(i)});
   }
-  limits.succeeded({"kim", "10.0.1.0"});  // again, therefore newest
+  limits.succeeded({"kim", "10.0.1.0"});  // repeated, therefore the newest
   limits.succeeded({"kim", "10.0.1.99"});
   EXPECT_EQ(limits.familiar().size(), LoginLimits::kMostFamiliarOfName + 1);
   EXPECT_TRUE(limits.is_familiar(kAdminThere));

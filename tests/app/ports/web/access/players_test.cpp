@@ -3,7 +3,7 @@
 
 #include "tests/app/ports/web/access/access_served.h"
 
-/// Players, recorders and dashboards that can send a name and a password only.
+/// Tests of players, recorders and dashboards that can send only a name and a password.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -26,7 +26,7 @@ class Players : public AccessServed {
     add_one_of_each_role();
     start();
   }
-  /// The head of an answer as it was sent.
+  /// Raw head of an answer.
   std::string head(const std::string& target, const std::string& headers) const {
     Client client(port());
     client.send(request_text("GET", target, headers));
@@ -88,7 +88,7 @@ TEST_F(Players, MaySendAnythingElse) {
   }
 }
 
-/// The stream ends with the token, as others do.
+/// The stream ends with the token, like other streams.
 TEST_F(Players, LoseTheirStreamWithTheToken) {
   Client client(port());
   client.send(request_text("GET", "/stream.mjpg?view=front", viewer()));

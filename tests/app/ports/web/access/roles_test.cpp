@@ -9,7 +9,7 @@
 #include "tests/app/ports/web/access/access_served.h"
 #include "tests/app/ports/web/configuration/written_files.h"
 
-/// Every route with every role: what is declared is what happens.
+/// Tests every route with every role against its declaration.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -18,11 +18,11 @@ using testing::HasSubstr;
 constexpr std::array kEveryRole{Role::Nobody, Role::Viewer, Role::Operator, Role::Integrator,
                                 Role::Administrator};
 
-/// The way of a request to the server.
+/// Path of a request to the server.
 struct Way {
   const char* name;
   std::vector<std::string> trusted_proxies;
-  std::string headers;  ///< that a proxy adds
+  std::string headers;  ///< headers added by a proxy
 };
 
 const std::string kForwardedHeaders =
@@ -47,10 +47,10 @@ class Roles : public AccessServed {
     program.log = std::make_shared<RecentLog>();
     WebSettings settings;
     settings.trusted_proxies = trusted_proxies;
-    settings.max_connections_per_address = 100;  // those that were closed count for a moment
+    settings.max_connections_per_address = 100;  // closed connections still count for a moment
     start(settings);
   }
-  /// What a route answers to an empty object, which changes nobody's role or password.
+  /// Answer of a route to an empty object, which changes no role or password.
   Answer ask(const Route& route, const std::string& headers) const {
     return route.method == "POST" ? post(route.path, "{}", headers + kPageHeaders)
                                   : get(port(), route.path, headers);
@@ -80,7 +80,7 @@ class Roles : public AccessServed {
   std::atomic<int> carried_out{0};
 };
 
-/// Each route and role on each way.
+/// Tests each route and role on each path.
 class RolesByWay : public Roles, public testing::WithParamInterface<Way> {
  protected:
   void SetUp() override { AccessServed::SetUp(); }

@@ -11,7 +11,7 @@
 namespace orbwatch::app::web::tests {
 namespace {
 
-/// A desk whose thread is busy until it is let go on.
+/// A desk whose thread is blocked until the test releases it.
 class SlowWorkTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -59,7 +59,7 @@ class SlowWorkTest : public testing::Test {
   std::promise<void> go_on;
   bool is_finished = false;
   std::vector<ExchangePtr> submitted;
-  std::vector<std::string> served;  ///< by the thread; read after finish()
+  std::vector<std::string> served;  ///< served by the thread; read after finish()
 };
 
 TEST_F(SlowWorkTest, UnknownClientsDoNotKeepKnownOnesOut) {

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Knows one alignment and remembers what was asked.
+/// A source with one alignment that records requests.
 class Source : public AlignmentSource {
  public:
   AlignmentReport report(std::size_t camera) const override {
@@ -46,7 +46,7 @@ class Source : public AlignmentSource {
     if (picture.camera == 1) return fail("the camera is not watched");
     const std::lock_guard lock(mutex_);
     asked_ = picture;
-    // As cameras do: later, and elsewhere.
+    // Called later and elsewhere, like by cameras.
     pictures_.emplace_back([on_picture = std::move(on_picture)] { on_picture("a picture"); });
     return {};
   }

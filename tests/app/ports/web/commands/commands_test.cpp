@@ -11,7 +11,7 @@
 #include "tests/app/ports/web/served.h"
 #include "tests/support/temporary_folder.h"
 
-/// Commands over the server, up to the handler that all interfaces share.
+/// Tests commands over the server, up to the handler shared by all interfaces.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -110,7 +110,7 @@ TEST_F(Commands, WhatIsWrongReachesNobody) {
 
 TEST_F(Commands, ForeignPagesReachNobody) {
   const std::string port_text = ":" + std::to_string(port());
-  // A form needs no permission of the browser for these types.
+  // Browsers send forms of these types without a preflight.
   for (const char* type :
        {"", "Content-Type: text/plain\r\n", "Content-Type: application/x-www-form-urlencoded\r\n",
         "Content-Type: multipart/form-data; boundary=x\r\n",
@@ -144,7 +144,7 @@ TEST_F(Commands, AHeldHandlerDelaysNoOtherRequest) {
   EXPECT_EQ(clients.front()->answer().status, 200);
 }
 
-/// True: this process has a thread of that name.
+/// Returns whether this process has a thread of that name.
 bool has_thread(const std::string& name) {
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     std::ifstream in(task.path() / "comm");
@@ -154,7 +154,7 @@ bool has_thread(const std::string& name) {
   return false;
 }
 
-/// Stops everything as soon as it is done, as restart does.
+/// The command stops everything as soon as it is done, like restart.
 TEST_F(Commands, WhatIsBeingDoneIsAnsweredAlthoughTheServerEnds) {
   is_held = true;
   Client client(port());
@@ -173,7 +173,7 @@ class HurriedCommands : public Commands {
   HurriedCommands() { timeout = std::chrono::milliseconds(300); }
 };
 
-/// Its client was told that there was no answer: it may not happen later.
+/// Its client got a timeout answer, so the command must not be executed later.
 TEST_F(HurriedCommands, ACommandThatWaitedTooLongIsNotCarriedOut) {
   is_held = true;
   Client first(port()), second(port());
@@ -218,7 +218,7 @@ TEST_F(Commands, DescriptionNamesEveryRouteCommandAndFigure) {
       EXPECT_EQ(argument["maximum"], info.arguments[i].maximum);
     }
   }
-  // What is described is served, and is described as it is served.
+  // Every described route is served, and is described as served.
   for (const auto& [path, methods] : paths.items()) {
     for (const auto& [method, operation] : methods.items()) {
       const int status = request(port(), method == "get" ? "GET" : "POST", path).status;

@@ -100,7 +100,7 @@ TEST_F(Configuration, ThatIsWrongIsRefusedWithItsLine) {
   EXPECT_TRUE(shown()["trial"].is_null());
 }
 
-/// By another one the users could be others, or none.
+/// Another site file could change or remove the users.
 TEST_F(Configuration, OfTheSiteIsTheAdministrators) {
   start();
   const json other{{"files", {{"site.toml", "state_folder = \"/tmp\"\n"}}}};
@@ -116,7 +116,7 @@ TEST_F(Configuration, OfTheSiteIsTheAdministrators) {
   EXPECT_EQ(ask("try", other, Role::Administrator).status, 200);
 }
 
-/// A second editor, or somebody at the board: the change of the first one would be lost.
+/// Otherwise a change by a second editor, or at the board, would be lost.
 TEST_F(Configuration, MadeOfAnOlderFileIsRefusedWithWhoChangedItAndWhen) {
   start();
   const auto based_on = [](const std::string& checksum) {

@@ -10,7 +10,7 @@
 
 namespace orbwatch::app::web::tests {
 
-/// Files of a configuration in memory, and what was asked of them. The checksum of a text is the
+/// Files of a configuration in memory, with a record of requests. The checksum of a text is the
 /// text.
 class WrittenFiles final : public ConfigurationFiles {
  public:
@@ -22,7 +22,7 @@ class WrittenFiles final : public ConfigurationFiles {
     }
     return now;
   }
-  /// A line for each change behind the rig's.
+  /// Appends a line for each change to the rig's text.
   Result<Edit> with_changed_recipe(int number, const RecipeChange& change) const override {
     const std::lock_guard lock(mutex);
     if (number != 1) return fail("there is no recipe " + std::to_string(number));

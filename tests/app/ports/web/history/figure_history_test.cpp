@@ -17,7 +17,7 @@ MATCHER_P2(IsFrom, low, high, "") { return arg.low == float(low) && arg.high == 
 constexpr std::uint16_t kOtherRecipe = kRecipe + 1;
 const Component kWeld{"region", "weld"};
 
-/// On a clock of its own.
+/// A history with a clock of the test's own.
 class FigureHistoryTest : public testing::Test {
  protected:
   void SetUp() override { history.advance(now); }

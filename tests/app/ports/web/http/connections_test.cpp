@@ -19,7 +19,7 @@ using std::chrono::seconds;
 
 constexpr seconds kTimeout{5};
 
-/// A connected pair: the server's end and the client's.
+/// A connected pair of sockets: the server's end and the client's.
 class Pair {
  public:
   Pair() {
@@ -30,9 +30,9 @@ class Pair {
   }
 
   int server() const { return server_.get(); }
-  /// The client sends no more.
+  /// Ends the client's sending direction.
   void half_close() const { ::shutdown(client_.get(), SHUT_WR); }
-  /// Whether the client sees the end.
+  /// Returns whether the client sees the end.
   bool is_shut() const {
     char byte = 0;
     return ::recv(client_.get(), &byte, 1, MSG_DONTWAIT) == 0;

@@ -18,7 +18,7 @@ Request request_from(const std::string& peer, Values headers) {
   return request;
 }
 
-/// A request of a trusted proxy, with what its headers say.
+/// A request from a trusted proxy, after its headers were applied.
 Request forwarded(Values headers) {
   Request request = request_from("127.0.0.1", std::move(headers));
   const auto taken = take_forwarding(request, kTrusted);

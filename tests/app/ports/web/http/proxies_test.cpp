@@ -3,7 +3,7 @@
 #include "app/ports/web/access/first_code.h"
 #include "tests/app/ports/web/access/access_served.h"
 
-/// A whole server behind reverse proxies, and the forms in which their requests come.
+/// Tests a complete server behind reverse proxies, with their forms of requests.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -30,7 +30,7 @@ class Proxies : public AccessServed {
     return post("/api/v1/login", json{{"user", "viewer"}, {"password", password}}.dump(),
                 headers + kPageHeaders);
   }
-  /// The status of what is sent as it stands.
+  /// Status of the answer to a raw request.
   int status_of(const std::string& text) const {
     Client client(port());
     client.send(text);
@@ -162,7 +162,8 @@ TEST_F(Proxies, PassOnWhatOurOwnPageCausesAndNothingElse) {
   }
 }
 
-/// Bytes that a proxy takes for the body of one client's request must not become the next one's.
+/// Bytes that a proxy regards as the body of one client's request must not become the next client's
+/// request.
 TEST_F(Proxies, SeeTheEndOfARequestWhereWeDo) {
   trust();
   Client client(port());

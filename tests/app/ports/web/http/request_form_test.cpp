@@ -18,7 +18,7 @@ Request request_to(const std::string& target, Values headers) {
   return request;
 }
 
-/// 0: it is served.
+/// Status of a refusal; 0: served.
 int refusal_of(Request request, const char* version = "HTTP/1.1") {
   const auto refusal = settle_form(request, version, kOwn);
   return refusal ? refusal->status : 0;

@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = ORBWATCH_SOURCE_DIR "/app/ports/web/page/files";
 
-/// Paths of files in attributes of HTML and in imports of scripts, which `file` names from where it
-/// is.
+/// Paths of files in attributes of HTML and in imports of scripts, resolved relative to `file`.
 std::set<std::string> files_named_in(const fs::path& file, const std::string& text) {
   static const std::regex kName(R"rx((?:src|href|from)(?:=| )"([^"#]+)")rx");
   std::set<std::string> names;
@@ -49,7 +48,7 @@ TEST_F(Served, EveryFileOfThePageIsServedAsItWasWritten) {
   EXPECT_EQ(files, kPageFiles.size());
 }
 
-/// What the page loads, and what that loads in turn, is there, and from nowhere else.
+/// All files that the page loads, directly or indirectly, exist and come from the appliance.
 TEST_F(Served, ThePageLoadsOnlyItsOwnFiles) {
   start();
   std::set<std::string> seen, open{""};
@@ -64,7 +63,7 @@ TEST_F(Served, ThePageLoadsOnlyItsOwnFiles) {
   EXPECT_EQ(seen.size(), kPageFiles.size()) << "some file is loaded by none";
 }
 
-/// The policy that is sent with it allows neither.
+/// The policy sent with the page forbids both.
 TEST(Page, HasNoScriptOrStyleWithinTheHtml) {
   for (const PageFile& file : kPageFiles) {
     if (!file.name.ends_with(".html")) continue;

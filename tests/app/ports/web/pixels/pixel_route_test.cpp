@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr int kWidth = 64, kHeight = 48;
 constexpr double kKelvinPerCount = 0.04, kKelvinOffset = 173.15;
-/// Where there are counts but no camera is shown, and the other way round.
+/// Column with counts but without a displayed camera, and the reverse.
 constexpr int kBlindColumn = 3, kUncountedColumn = 5;
 
 class ServedPixels : public Served {
@@ -43,8 +43,7 @@ class ServedPixels : public Served {
     live.emplace(port(), "/api/v1/live?view=front&view=wide");
   }
 
-  /// Passes a view on as the pipeline does: with counts if they are needed, unless it was begun
-  /// before.
+  /// Passes a view like the pipeline: with counts if needed, unless its rendering began before.
   void pass_on(std::size_t index, double yaw, bool is_late = false) {
     const auto view =
         make_view(index, index == 0 ? "front" : "wide", ++frame_set, kWidth, kHeight, true);
@@ -61,7 +60,7 @@ class ServedPixels : public Served {
     sent = view;
     sink->accept(view);
   }
-  /// The same; returns the number of its picture.
+  /// Passes a view and returns the number of its picture.
   std::uint64_t send(std::size_t index = 0, double yaw = 0) {
     pass_on(index, yaw);
     return live->next("view").head["number"];
@@ -130,7 +129,7 @@ TEST_F(ServedPixels, LieWhereTheViewOfThatMomentLooks) {
     const optics::YawPitchRoll angles = optics::yaw_pitch(direction);
     EXPECT_NEAR(at["yaw"], angles.yaw, 1e-9);
     EXPECT_NEAR(at["pitch"], angles.pitch, 1e-9);
-    // On the wall in front, 500 mm from the ball's centre, or on the one to the right.
+    // The point is on the front wall, 500 mm from the ball's centre, or on the right wall.
     const double distance = yaw == 0 ? 500 / direction.y : 590 / direction.x;
     EXPECT_NEAR(at["distance"], distance, 1e-6);
     EXPECT_NEAR(at["point"][0], 10 + distance * direction.x, 1e-6);

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr const char* kRecipePath = "/api/v1/recipe";
 
-/// A view along +Y.
+/// A recipe with a view along +Y.
 MeasuredRecipe make_recipe(const optics::Ball& ball) {
   MeasuredRecipe recipe;
   recipe.number = app::tests::make_status().recipe;
@@ -41,7 +41,7 @@ MeasuredRecipe make_recipe(const optics::Ball& ball) {
   return recipe;
 }
 
-/// In a box.
+/// Server with a recipe in a scene with a box.
 class ServedRecipe : public Served {
  protected:
   void SetUp() override {
@@ -81,7 +81,7 @@ TEST_F(ServedRecipe, HasLimitsAndRegionsInItsViews) {
   const json &pool = all["regions"][0], &sparks = all["regions"][1];
   EXPECT_EQ(pool["kind"], "points");
   EXPECT_EQ(pool["corners"][1]["at"], json::parse("[30, 120, 20]"));
-  // 100 mm away, 20 to the right and 10 down; 32.5 px are 45 degrees.
+  // The corner is 100 mm away, 20 mm to the right and 10 mm down; 32.5 px correspond to 45 degrees.
   EXPECT_NEAR(pool["corners"][1]["pixel"][0], 32 + 0.2 * 32.5, 1e-9);
   EXPECT_NEAR(pool["corners"][1]["pixel"][1], 24 + 0.1 * 32.5, 1e-9);
   EXPECT_EQ(pool["lines"].size(), 1U);
@@ -100,7 +100,7 @@ TEST_F(Served, WithoutRecipesTheRecipeIsEmpty) {
   EXPECT_EQ(get(port(), std::string(kRecipePath) + "?number=1").status, 404);
 }
 
-/// What is shown at a pixel is the corner that is shown there.
+/// A corner from a pixel is shown at that pixel.
 TEST_F(ServedRecipe, GivesPlacesBackForPixels) {
   std::string pixels;
   const json pool = shown()["regions"][0];

@@ -66,8 +66,8 @@ std::string read(LiveStream& stream, std::size_t most) {
   return out;
 }
 
-/// A source that always has something new keeps no other waiting, and a slow reader gets the newest
-/// of each.
+/// A source that always has a new item does not block others, and a slow reader gets the newest
+/// item of each.
 TEST(LiveStream, TakesItsSourcesByTurnsAndTheNewestOfEach) {
   const auto a = std::make_shared<Feed>(), b = std::make_shared<Feed>();
   StreamCounts counts;

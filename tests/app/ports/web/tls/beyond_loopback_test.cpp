@@ -6,8 +6,7 @@
 #include "tests/app/ports/web/tls/tls_client.h"
 #include "tests/support/network_namespace.h"
 
-/// What another computer is served: in a network of the test's own, from an address that is not one
-/// of loopback.
+/// Tests answers to another computer: in a separate network, from an address other than loopback.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -20,7 +19,7 @@ constexpr const char* kOther = "10.77.0.1";
 
 class BeyondLoopback : public AccessServed {
  protected:
-  /// Runs what follows in the test's network, with the sink.
+  /// Runs `rest` in the test's network, with the sink.
   void served(const std::function<void()>& rest, WebSettings settings = {}) {
     ORBWATCH_REQUIRE_NETWORK_NAMESPACES();
     const orbwatch::tests::NetworkNamespace network;
@@ -33,7 +32,7 @@ class BeyondLoopback : public AccessServed {
       sink.reset();
     });
   }
-  /// Whether somebody listens on 127.0.0.1.
+  /// Returns whether the port on 127.0.0.1 accepts connections.
   static bool connects(int port) {
     const auto address = parse_address("127.0.0.1", port);
     const hal::FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
@@ -137,7 +136,7 @@ TEST_F(BeyondLoopback, TheCodeIsNeverTakenOverHttp) {
   });
 }
 
-/// Nobody learns the code from what is served, and guessing it takes longer and longer.
+/// The code is not contained in any answer, and the wait for guesses increases.
 TEST_F(BeyondLoopback, TheCodeIsNotGuessed) {
   served([&] {
     const std::string code = kept_code(state_folder).value().value();

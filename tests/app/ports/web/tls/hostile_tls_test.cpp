@@ -7,7 +7,7 @@
 #include "tests/app/ports/web/access/access_served.h"
 #include "tests/app/ports/web/tls/tls_client.h"
 
-/// Clients of HTTPS that mean harm, all on loopback and bounded in number and time.
+/// Malicious clients of HTTPS, all on loopback and bounded in number and time.
 namespace orbwatch::app::web::tests {
 namespace {
 
@@ -33,11 +33,11 @@ class HostileTls : public AccessServed {
 
 TEST_F(HostileTls, GarbageIsCutOff) {
   start(hurried());
-  std::mt19937 random(1);  // NOLINT(bugprone-random-generator-seed): the same every time
+  std::mt19937 random(1);  // NOLINT(bugprone-random-generator-seed): reproducible
   for (int i = 0; i < 120; ++i) {
     std::string bytes(1 + random() % 2000, '\0');
     for (char& c : bytes) c = static_cast<char>(random());
-    // A record of a handshake of TLS 1.2, and what is no TLS at all.
+    // A record of a TLS 1.2 handshake, and bytes that are not TLS.
     if (i % 3 == 1) bytes = std::string("\x16\x03\x03\x04\x00", 5) + bytes;
     if (i % 3 == 2) bytes = request_text("GET", "/healthz");
     Client client(https());
@@ -52,7 +52,7 @@ TEST_F(HostileTls, HandshakesThatDoNotEndAreCutOff) {
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < 200; ++i) {
     clients.push_back(std::make_unique<Client>(https()));
-    // The head of a record whose content goes on arriving byte by byte.
+    // The head of a record whose content then arrives byte by byte.
     if (i % 2 == 1) clients.back()->send(std::string("\x16\x03\x01\x02\x00\x01", 6));
   }
   EXPECT_EQ(tls_get("/healthz").status, 200) << "meanwhile";
@@ -100,11 +100,11 @@ TEST_F(HostileTls, NoPathLeadsToAFile) {
   }
 }
 
-/// Guesses by many at once, each after a handshake of its own, while a fast client reads.
+/// Simultaneous guesses by many clients, each after its own handshake, while a fast client reads.
 TEST_F(HostileTls, AFloodOfLoginsTakesNoPictureFromAReader) {
   add_one_of_each_role();
   WebSettings settings = hurried();
-  settings.request_timeout = std::chrono::minutes(1);  // nobody is ended for being slow
+  settings.request_timeout = std::chrono::minutes(1);  // slow clients are not ended
   start(settings);
   TlsClient fast(https());
   fast.send(request_text("GET", "/stream.mjpg?view=front", by_token(Role::Viewer)));

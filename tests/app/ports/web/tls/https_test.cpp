@@ -6,7 +6,7 @@
 #include "tests/app/ports/web/tls/pem_files.h"
 #include "tests/app/ports/web/tls/tls_client.h"
 
-/// HTTPS as browsers have it, by a client with another TLS library.
+/// Tests HTTPS like a browser, by a client with another TLS library.
 namespace orbwatch::app::web::tests {
 namespace {
 

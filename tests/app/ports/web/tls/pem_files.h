@@ -17,7 +17,7 @@ inline std::chrono::sys_seconds this_second() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
 }
 
-/// From a day ago.
+/// Validity that began a day ago.
 inline ValidityPeriod valid_for(std::chrono::seconds time) {
   return {this_second() - std::chrono::days(1), this_second() + time};
 }
@@ -28,7 +28,7 @@ inline void write_pem(const std::filesystem::path& file, const std::string& text
   ::chmod(file.c_str(), mode);
 }
 
-/// Files of an own certificate that an authority issued, and the settings that name them.
+/// Files of a certificate issued by an authority, and settings that name them.
 struct PemFiles {
   explicit PemFiles(const std::filesystem::path& folder,
                     const ValidityPeriod& validity = valid_for(std::chrono::days(90)))

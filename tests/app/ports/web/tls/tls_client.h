@@ -11,18 +11,18 @@
 
 namespace orbwatch::app::web::tests {
 
-/// A client over TLS by another library than the server's. Trusts every certificate; says which it
-/// was shown.
+/// A TLS client by another library than the server's. Trusts every certificate, and records the
+/// presented one.
 class TlsClient : public Client {
  public:
-  /// `newest`: the newest version of TLS that it speaks; 0: any. `ciphers`: those of TLS 1.2 in
-  /// OpenSSL's names; null: any.
+  /// `newest`: newest supported version of TLS; 0: any. `ciphers`: ciphers of TLS 1.2 by OpenSSL's
+  /// names; null: any.
   explicit TlsClient(int port, const char* host = "127.0.0.1", int newest = 0,
                      int receive_buffer = 0, const char* ciphers = nullptr)
       : Client(port, receive_buffer, host), context_(SSL_CTX_new(TLS_client_method())) {
-    // What is sent to a server that has closed is no end of the test.
+    // Writing to a closed server must not end the test.
     std::signal(SIGPIPE, SIG_IGN);
-    // Whatever the configuration of this computer says about old versions.
+    // Overrides this computer's configuration for old versions.
     SSL_CTX_set_security_level(context_.get(), 0);
     SSL_CTX_set_min_proto_version(context_.get(), TLS1_VERSION);
     SSL_CTX_set_max_proto_version(context_.get(), newest);
@@ -34,12 +34,12 @@ class TlsClient : public Client {
     is_secure_ = SSL_connect(tls_.get()) == 1;
   }
 
-  /// Whether there is a connection.
+  /// Returns whether the TLS connection is established.
   bool is_secure() const { return is_secure_; }
   std::string version() const { return SSL_get_version(tls_.get()); }
   Certificate certificate() const { return Certificate(SSL_get1_peer_certificate(tls_.get())); }
   std::string fingerprint() const { return fingerprint_of(certificate()); }
-  /// How many certificates the server sent.
+  /// Number of certificates that the server sent.
   int chain_length() const { return sk_X509_num(SSL_get_peer_cert_chain(tls_.get())); }
 
  protected:
