@@ -81,7 +81,7 @@ class ConfigurationPage(PageCase):
             lambda: self.appliance.checksum() != self.checksum
             and self.appliance.configuration()["trial"]))
         eventually("the page says so",
-                   lambda: "goes back in" in self.browser.text("#configuration [role=timer]"))
+                   lambda: "is reverted in" in self.browser.text("#configuration [role=timer]"))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
 
     def test_configuration_is_checked(self):
@@ -118,9 +118,9 @@ class ConfigurationPage(PageCase):
                    lambda: "demo-recipe.toml was changed by" in self.said())
         self.browser.keep_picture("configuration-changed-elsewhere")
         self.assertIsNone(self.appliance.configuration()["trial"])
-        eventually("the file is marked", lambda: "by somebody else" in self.browser.text(
+        eventually("the file is marked", lambda: "by another user" in self.browser.text(
             "#configuration details[open] summary"))
-        self.press("Drop the change made here and show the file as it is")
+        self.press("Discard the change made here and show the present file")
         eventually("the other change is shown", lambda: self.areas()["demo-recipe.toml"]
                    .get_attribute("value").endswith("# by hand\n"))
         self.assertNotIn("typed here",
@@ -131,7 +131,7 @@ class ConfigurationPage(PageCase):
         name = [line for line in self.recipe.decode().splitlines()
                 if line.startswith("name = ")][0].split('"')[1]
         self.try_another_name(name, "another")
-        self.press("Go back now")
+        self.press("Revert now")
         eventually("the old one runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() == self.checksum))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
@@ -151,7 +151,7 @@ class ConfigurationPage(PageCase):
             lambda: self.appliance.checksum() != self.checksum))
         eventually("the old one runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() == self.checksum))
-        eventually("the page says so", lambda: "What the files say runs" in self.said())
+        eventually("the page says so", lambda: "The configuration of the files runs" in self.said())
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
 
     def test_configuration_keeps_nobody_out(self):

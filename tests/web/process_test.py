@@ -168,7 +168,7 @@ class RecipeOnThePage(PageCase):
             and self.appliance.configuration()["trial"]))
         self.assertEqual(self.recipe()["alarms"][0]["high_warning"], limit)
         eventually("the page says so",
-                   lambda: "goes back in" in self.browser.text("#recipe [role=timer]"))
+                   lambda: "is reverted in" in self.browser.text("#recipe [role=timer]"))
         eventually("the new region is measured", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-region=seam]"))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.before)

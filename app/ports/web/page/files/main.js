@@ -46,7 +46,7 @@ function addTabs() {
   turn();
 }
 
-// For ever: the appliance may start later than the page.
+// Retries for ever, because the appliance may start later than the page.
 async function figuresOfAppliance() {
   for (;;) {
     try {
@@ -76,7 +76,7 @@ function makeSystem(section) {
   return system;
 }
 
-// In the order of the navigation. What make() returns may have status(), picture(), lost() and views.
+// Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost() and views.
 const tabs = [
   { name: "live", make: (section) => new Live(section, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
@@ -92,7 +92,7 @@ const isAtLeast = (role) => session.roles.indexOf(session.role) >= session.roles
 addTabs();
 const figures = await figuresOfAppliance();
 const made = [];
-// That of the tabs with pictures of views, if one of them is shown.
+// The shown tab with pictures of views, if any.
 const shown = () => made.find((tab) => tab.views && tab.isShown);
 const choose = () => stream.choose(shown()?.views ?? []);
 for (const { name, make } of tabs) made.push(make(document.getElementById(name)));

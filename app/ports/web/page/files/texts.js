@@ -1,11 +1,11 @@
-// Every text that the page itself says; names and descriptions of figures come from the appliance.
+// All texts of the page itself; names and descriptions of figures come from the appliance.
 export const texts = {
   pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System",
     fleet: "Appliances" },
   user: "User",
   password: "Password",
   newPassword: (characters) => `New password, at least ${characters} characters`,
-  passwordAgain: "The same again",
+  passwordAgain: "Repeat the password",
   passwordsDiffer: "the two passwords differ",
   logInTitle: "Log in",
   logIn: "Log in",
@@ -16,15 +16,15 @@ export const texts = {
   whereTheCodeIs: (user) => `For the administrator ${user}. The appliance's log has the code, and ` +
     "“sudo orbwatch password --show” there prints it.",
   noPassword: "No password is set.",
-  peopleTitle: "People, programs, and who did what",
-  people: "People",
-  programs: "Programs that have a token",
-  audit: "Who did what, the newest first",
+  peopleTitle: "Users, programs and audit",
+  people: "Users",
+  programs: "Programs with a token",
+  audit: "Audit, the newest first",
   program: "Program",
   role: "Role",
   setUser: "Add or change",
   createToken: "Create a token",
-  newToken: (token) => `The token, which is told this once: ${token}`,
+  newToken: (token) => `The token, shown only once: ${token}`,
   remove: "Remove",
   revoke: "Revoke",
   done: "Done",
@@ -45,11 +45,11 @@ export const texts = {
   snapshot: "Snapshot",
   fullScreen: "Full screen",
   pictureOf: (name) => `Picture of view ${name}: arrow keys move a crosshair`,
-  liveHelp: "Point at a picture, or tap it, to read what it shows there; arrow keys move a crosshair, with " +
+  liveHelp: "Point at a picture, or tap it, to read its values there; arrow keys move a crosshair, with " +
     "Ctrl by one pixel, Escape removes it. Drag a picture, or press Shift and arrow keys, to turn its view " +
-    "for everybody; + and -, two fingers or, once it was clicked, the wheel zoom, Home looks back.",
-  staysPut: (isMeasured, mayCommand) => (!mayCommand ? "An operator may turn views; you may look."
-    : isMeasured ? "This view is measured: it stays where the recipe has it."
+    "for all users; + and -, two fingers or, once it was clicked, the wheel zoom, Home resets it.",
+  staysPut: (isMeasured, mayCommand) => (!mayCommand ? "Only operators may turn views."
+    : isMeasured ? "This view is measured: the recipe fixes its direction."
       : "A ball's own picture cannot be turned; turn it under Look around."),
   shareOf: (camera, other) => `Share of ${camera} beside ${other}`,
   coloursOf: (camera) => `Colours of ${camera}`,
@@ -63,10 +63,10 @@ export const texts = {
     temperature === null ? "" : `${temperature.toFixed(1)} °C`,
     point === null ? "" : `X ${point[0].toFixed(0)}, Y ${point[1].toFixed(0)}, Z ${point[2].toFixed(0)} mm, ` +
       `${distance.toFixed(0)} mm from the ball`].filter(Boolean).join("; "),
-  lookCanvas: "The room as seen from the ball: arrow keys turn, plus and minus zoom, Home looks back",
-  lookHelp: "Drag or arrow keys turn, the wheel, two fingers or + and - zoom, Home looks back to " +
-    "where the camera sees best.",
-  lookShows: "What is shown",
+  lookCanvas: "The room as seen from the ball: arrow keys turn, plus and minus zoom, Home resets the view",
+  lookHelp: "Drag or arrow keys turn, the wheel, two fingers or + and - zoom, Home returns to " +
+    "the direction of the best resolution.",
+  lookShows: "Display",
   lookFirst: "Camera",
   lookSecond: "Mixed with",
   lookNone: "none",
@@ -80,9 +80,9 @@ export const texts = {
   wireFrame: "Wire frame of the machine",
   resolutionLow: "1 pixel per degree",
   resolutionHigh: "16 pixels per degree",
-  noSphere: "No view shows a ball as its camera does: add one of kind \"ball\" to the site file.",
-  noWebGl: "This browser draws no WebGL: the appliance turns a view, for everybody who looks at it.",
-  noWebGlNoView: "This browser draws no WebGL, and the appliance has no view that can be turned.",
+  noSphere: "There is no view of kind \"ball\": add one to the site file.",
+  noWebGl: "This browser has no WebGL: the appliance turns a view, for all users who watch it.",
+  noWebGlNoView: "This browser has no WebGL, and the appliance has no view that can be turned.",
   align: {
     camera: "Camera",
     detect: "Find the ball",
@@ -90,11 +90,11 @@ export const texts = {
     accept: "Accept",
     discard: "Discard",
     revert: "Back to the alignment before",
-    picture: "What the camera sees",
+    picture: "Picture of the camera",
     outlineGroup: "The ball's outline and the scene's edges",
     help: "Drag the middle of the ball or one of its radii onto the limb; arrow keys move them by 0.1 " +
-      "pixel, with shift by 1. Thin lines show the machine's edges as the alignment has them: drag one " +
-      "onto the edge that it stands for, or turn the camera by the buttons. The dashed ellipse is in " +
+      "pixel, with shift by 1. Thin lines show the machine's edges by the alignment: drag one " +
+      "onto the edge that it represents, or turn the camera by the buttons. The dashed ellipse is in " +
       "force. Accept writes the calibration and restarts with it.",
     nudge: (axis, step) => `${{ yaw: "Yaw", pitch: "Pitch", roll: "Roll" }[axis]} ` +
       `${step < 0 ? "−" : "+"}${Math.abs(step)}°`,
@@ -109,55 +109,55 @@ export const texts = {
       `Rotation: ${yaw.toFixed(2)}°, ${pitch.toFixed(2)}°, ${roll.toFixed(2)}°.`,
     proposal: (method, quality) => `Proposed: ${method}, ${quality}`,
     inForce: (method, quality) => `In force: ${method}${quality ? `, ${quality}` : ""}`,
-    ofRig: "In force: as the rig file has it",
+    ofRig: "In force: from the rig file",
     refusal: (why) => `Refused: ${why}`,
     waiting: (why) => `No answer (${why}): trying again`,
-    notWatched: "Nothing is found or shown of this camera: it is not watched, see the log.",
+    notWatched: "This camera is not watched, so it can be neither shown nor aligned; see the log.",
   },
   stages: "Time of a frame set",
   stage: "Stage",
   newest: "Newest, ms",
   median: "Median, ms",
   worst: "99 of 100, ms",
-  load: "The slowest of the last second took of the time that there is",
+  load: "Slowest frame set of the last second, share of its deadline",
   configurationTitle: "Configuration",
   changed: "(changed)",
-  changedElsewhere: "(changed here, and by somebody else since it was read)",
-  reloadFile: "Drop the change made here and show the file as it is",
+  changedElsewhere: "(changed here, and by another user since it was read)",
+  reloadFile: "Discard the change made here and show the present file",
   download: "Download",
-  difference: "What the new texts change",
+  difference: "Differences of the new texts",
   checkFiles: "Check and show the difference",
   tryFiles: "Try out",
-  trySeconds: "Goes back unless confirmed within, s",
+  trySeconds: "Reverted unless confirmed within, s",
   confirmFiles: "Keep it",
-  revertFiles: "Go back now",
+  revertFiles: "Revert now",
   confirmed: "Kept: the files are written.",
-  reverted: "It goes back.",
+  reverted: "It is being reverted.",
   tried: "The appliance restarts with the new texts.",
-  goesBack: (seconds) => (seconds === null ? "A new configuration is tried out."
-    : `A new configuration is tried out. Without a word it goes back in ${Math.ceil(seconds)} s.`),
-  filesCount: "What the files say runs.",
-  filesRefused: (why) => `The files are wrong, the last good ones run: ${why}`,
-  uploadFiles: "Take texts from this computer",
+  goesBack: (seconds) => (seconds === null ? "A new configuration runs on trial."
+    : `A new configuration runs on trial. Without confirmation it is reverted in ${Math.ceil(seconds)} s.`),
+  filesCount: "The configuration of the files runs.",
+  filesRefused: (why) => `The files are invalid, the last good ones run: ${why}`,
+  uploadFiles: "Upload texts from this computer",
   notUtf8: (name) => `${name} is not UTF-8 text`,
   nothingChanged: "Nothing was changed.",
-  checked: (names) => `Right. Changed: ${names || "nothing"}.`,
+  checked: (names) => `Valid. Changed: ${names || "nothing"}.`,
   log: "Log",
-  leastLevel: "This level and what is more severe",
+  leastLevel: "Least severity",
   interfaces: "Interfaces: registers, clients, topics",
   filter: "Only rows with",
-  about: "Versions, and who may command",
+  about: "Versions, and interfaces that accept commands",
   version: "Version",
   commanders: (who) => `The appliance ${who}.`,
   register: {
-    title: "How it stands to the first camera",
+    title: "Orientation relative to the first camera",
     run: "Register",
-    help: "Found by what both cameras see. Judge it by one view that both show, one over the other, " +
+    help: "Computed from the content of both pictures. Check it in one view from both, one over the other, " +
       "and turn it by hand where they do not agree.",
   },
   place: {
-    title: "Where it stands in the machine",
-    help: "Click a point in the picture whose place in the machine is known, type its coordinates and add " +
+    title: "Position in the machine",
+    help: "Click a point in the picture whose position in the machine is known, type its coordinates and add " +
       "it; six points all around the ball are a good number. Or let the machine hold its tool's light at " +
       "known coordinates: a PLC sends them by the command mark_point, or type them here. The ball's " +
       "outline must be right before.",
@@ -169,24 +169,24 @@ export const texts = {
     add: "Add the point",
     light: "Add the tool's light at X, Y, Z",
     run: "Place",
-    forget: "Forget all points",
+    forget: "Discard all points",
     points: "Known points",
     point: "X, Y, Z, mm",
     pixel: "Marked at, px",
-    residual: "Marked minus shown, px",
+    residual: "Marked minus projected, px",
     outlier: "contradicts the others",
   },
   sceneView: {
     title: "The machine in a view",
-    help: "What is straight in the machine is straight here. Thin lines are its edges as the scene states " +
-      "them: drag one onto the edge that it stands for, and the camera is turned.",
+    help: "Straight lines of the machine are straight here. Thin lines are its edges by the scene: " +
+      "drag one onto the edge that it represents to turn the camera.",
     canvas: "A view by the alignment that is shown above",
     edges: "The scene's edges",
   },
   models: {
-    title: "What the ball's model does",
-    help: "One view by the exact model and by that of the paper. What is straight in the machine is " +
-      "straight in a right view: lay the line along it.",
+    title: "Comparison of ball models",
+    help: "One view by the exact model and by that of the paper. Straight lines of the machine are " +
+      "straight in a correct view: lay the line along one.",
     show: "Show both",
     exact: "Exact model",
     paper: "The paper's model",
@@ -216,20 +216,20 @@ export const texts = {
       all === 1 ? "1 appliance" : `${all} appliances`,
       gone > 0 ? `${gone} gone` : "",
       alarming > 0 ? `${alarming} with alarms` : "",
-      isFull ? "there are more than the list holds" : ""].filter(Boolean).join(", "),
+      isFull ? "the list is full" : ""].filter(Boolean).join(", "),
     missing: (what) => `Other appliances are found by DDS: ${what}.`,
     self: "(this appliance)",
     gone: (since) => `Gone since ${since.toLocaleString()}`,
     alarms: (count, worst) => (count === 0 ? "No alarm" : count === 1 ? `Alarm ${worst}`
       : `${count} alarms; the worst: ${worst}`),
     about: (version, prefix) => [version, `topics ${prefix}/…`].filter(Boolean).join(", "),
-    picture: (name) => `What ${name} sees`,
-    forget: "Forget those that are gone",
+    picture: (name) => `Picture of ${name}`,
+    forget: "Remove those that are gone",
   },
   alarms: "Alarms",
   noAlarms: "There are no alarms.",
-  alarmHistory: "What happened to alarms, the newest first",
-  noAlarmEvents: "Nothing has happened to an alarm since the appliance started.",
+  alarmHistory: "Events of alarms, the newest first",
+  noAlarmEvents: "There have been no events of alarms since the start.",
   alarm: "Alarm",
   event: "Event",
   limit: "Limit",
@@ -264,20 +264,20 @@ export const texts = {
     edge: (number) => `Edge ${number}: Enter adds a corner in its middle`,
     removeCorner: (number) => `Remove corner ${number}`,
     remove: "Delete the region",
-    removed: ({ name, alarms }) => (alarms.length === 0 ? `Region ${name} is deleted once that is kept.`
-      : `Region ${name} is deleted with its alarms ${alarms.join(", ")} once that is kept.`),
+    removed: ({ name, alarms }) => (alarms.length === 0 ? `Region ${name} is deleted once the change is kept.`
+      : `Region ${name} is deleted with its alarms ${alarms.join(", ")} once the change is kept.`),
     help: "Drag the region or its corners; arrow keys move them by one pixel, with shift by 10, plus and " +
       "minus resize the region. The middle of an edge, dragged, tapped or with Enter, becomes a corner; " +
       "Delete, or the button, removes the corner that was touched last. A new region, and one that is the " +
       "whole view, is drawn by dragging over the picture. Limits are dragged in the charts, or typed below " +
-      "them. Nothing counts until it is tried out and kept; the recipe's file keeps its comments.",
+      "them. Changes take effect when they are tried out and kept; the recipe's file keeps its comments.",
     newName: "New region",
-    threshold: "its hot spot begins at, °C or % of full scale",
+    threshold: "threshold of its hot spot, °C or % of full scale",
     add: "Add a region",
-    isThere: (name) => `there is a region ${name} already`,
+    isThere: (name) => `region ${name} exists already`,
     noSurface: "the view shows no surface of the scene there",
     changes: "Changes of the recipe",
-    forget: "Forget the changes",
+    forget: "Discard the changes",
   },
   chartEmpty: (name) => `${name}: not measured in the last ten minutes`,
 };

@@ -20,7 +20,7 @@ async function fetched(path) {
   return answer;
 }
 
-// By hand about the machine's axes.
+// Manual rotation about the machine's axes.
 function nudges(give) {
   return ["yaw", "pitch", "roll"].flatMap((axis) => [-kNudgeDeg, kNudgeDeg].map((step) => {
     const button = element("button", { type: "button" }, texts.align.nudge(axis, step));
@@ -75,7 +75,7 @@ export class Align {
     return this.#cameras.find(({ name }) => name === this.choice.value);
   }
 
-  // Empty when it was done, else why not.
+  // Empty: done; otherwise the reason.
   async #give(name, values = {}) {
     if (!this.#camera) return "";
     const why = await command(name, { camera: this.#camera.index, ...values });
@@ -84,7 +84,7 @@ export class Align {
     return why;
   }
 
-  // What is drawn at one pixel lies where the picture shows it at the other one.
+  // A shape drawn at one pixel is at the other pixel in the picture.
   async #pull(drawn, shown) {
     const { name: camera } = this.#camera;
     const directionAt = async ([u, v]) => directionOf(await (await fetched(
@@ -97,7 +97,7 @@ export class Align {
     }
   }
 
-  // One after the other as long as somebody looks; after a failure it tries again.
+  // Loads one picture after the other while the page is shown; retries after a failure.
   async #run() {
     if (this.#isRunning) return;
     this.#isRunning = true;

@@ -1,5 +1,5 @@
-// A camera's picture with the ball's outline over it as an ellipse, moved by its handles with
-// pointer, touch or keys, and the scene's edges as the alignment has them.
+// A camera's picture with the ball's outline over it as an ellipse, moved by its handles with pointer, touch
+// or keys, and the scene's edges by the alignment.
 import { element } from "../elements/elements.js";
 import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
@@ -15,7 +15,7 @@ function axes({ angle }) {
   return { rx: [Math.cos(a), Math.sin(a)], ry: [-Math.sin(a), Math.cos(a)] };
 }
 
-// By handle: where it stands; of a radius, at that end of the axis which the picture shows.
+// Positions by handle; a radius has it at the end of the axis inside the picture.
 function handlesOf(outline, { width, height }) {
   const { u, v } = outline;
   const isShown = ([x, y]) => x >= 0 && y >= 0 && x < width && y < height;
@@ -27,7 +27,7 @@ function handlesOf(outline, { width, height }) {
   return { centre: [u, v], rx: end("rx"), ry: end("ry") };
 }
 
-// What an outline is once its handle is at [u, v]. The first radius turns the ellipse, too.
+// Outline after its handle was moved to [u, v]. The first radius also turns the ellipse.
 function pulled(outline, handle, [u, v]) {
   if (handle === "centre") return { ...outline, u, v };
   const du = u - outline.u, dv = v - outline.v;
@@ -46,9 +46,8 @@ export class BallEditor {
   #settle = 0;
   #handles = {};
 
-  // `onChange(command, values)` has the appliance take over what was changed; a promise.
-  // `onPick([u, v])`: somebody pointed there, beside the handles. `onPull(from, to)`: an edge was
-  // dragged from one pixel to another; a promise.
+  // `onChange(command, values)` applies a change on the appliance; a promise. `onPick([u, v])`: a click
+  // beside the handles. `onPull(from, to)`: an edge was dragged from one pixel to another; a promise.
   constructor(onChange, onPick, onPull) {
     this.onChange = onChange;
     this.onPull = onPull;
@@ -102,7 +101,7 @@ export class BallEditor {
     });
   }
 
-  // Whoever only clicks on an edge points at a place.
+  // A click on an edge without dragging picks a point.
   #pull(event) {
     if (event.button !== 0) return;
     this.#isHeld = true;
@@ -113,7 +112,7 @@ export class BallEditor {
     });
   }
 
-  // Of a radius, right and up are larger, left and down smaller.
+  // For a radius, right and up enlarge, left and down reduce it.
   #press(event, name) {
     const [du, dv] = kKeys[event.key] ?? [];
     if (du === undefined || !this.#outline) return;
@@ -137,7 +136,7 @@ export class BallEditor {
     ++this.#edits;
   }
 
-  // What is changed meanwhile is applied later.
+  // Changes made meanwhile are applied later.
   async #apply() {
     const edits = this.#edits, { u, v, rx, ry, angle } = this.#outline;
     const values = { move_outline: { u, v }, shape_outline: { rx, ry, angle } };
@@ -170,8 +169,7 @@ export class BallEditor {
     this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
   }
 
-  // Crosses where points were marked, with a line to where they are shown since the camera was
-  // placed.
+  // Crosses at marked points, with a line to their projection by the placement.
   #markPoints({ points, picked }) {
     const size = kMarkPx * this.#scale();
     const cross = ([u, v]) => drawn("path", {
@@ -182,7 +180,7 @@ export class BallEditor {
     this.marks.replaceChildren(...off, ...marked, ...(picked ? [cross(picked)] : []));
   }
 
-  // Of a pixel on the screen.
+  // Size of a screen pixel.
   #scale() {
     return this.canvas.width / (this.svg.clientWidth || this.canvas.width);
   }

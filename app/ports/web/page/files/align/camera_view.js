@@ -1,12 +1,12 @@
-// A view by one camera alone, to judge its alignment by: where it looks, and its picture.
+// A view from one camera alone, to judge its alignment: its direction, and its picture.
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 export const kSide = 480;  // px
 
-// Where a view looks, as fields of a form and arguments of a query; degrees.
+// Direction of a view, as fields of a form and arguments of a query; degrees.
 export class ViewFields {
-  // As numbers, by name: those that were right last.
+  // Last valid numbers, by name.
   values = { yaw: 0, pitch: -20, h_fov: 80 };
 
   constructor(onChange) {

@@ -1,4 +1,4 @@
-// One view by two cameras, one over the other.
+// One view from two cameras, one over the other.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { kSide, viewCanvas } from "./camera_view.js";
@@ -49,7 +49,7 @@ export class Comparison {
     }, kBlinkMs);
   }
 
-  // `names` of both pictures, which are its own from now on.
+  // `names` of both pictures, which it owns from now on.
   show(pictures, names) {
     for (const picture of this.#pictures) picture.close();
     this.#pictures = pictures;

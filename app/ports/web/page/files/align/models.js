@@ -1,4 +1,4 @@
-// One view by the exact model of the ball beside the paper's, with a line that is straight.
+// One view by the exact model of the ball beside the paper's, with a straight line.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
@@ -64,7 +64,7 @@ export class Models {
     }
   }
 
-  // Through the whole picture, `offset` of its side beside the middle.
+  // Line through the whole picture, shifted from the middle by `offset` of its side.
   #drawLine(brush, side) {
     const a = Number(this.lines.angle.value) * Math.PI / 180;
     const x = Math.cos(a), y = Math.sin(a), beside = Number(this.lines.offset.value) * side;

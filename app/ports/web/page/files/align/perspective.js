@@ -1,7 +1,7 @@
-// A square view of the room from the ball's centre, as /api/v1/alignment/view.jpg draws it.
+// A square view of the room from the ball's centre, with the projection of /api/v1/alignment/view.jpg.
 import { axesOf, dot, kDeg } from "../elements/directions.js";
 
-// Of a line's length: what is nearer to the viewer's side is left out.
+// Share of a line's length; parts nearer to the viewer's plane are omitted.
 const kNear = 0.01;
 
 export class Perspective {
@@ -12,7 +12,7 @@ export class Perspective {
     this.focal = side / 2 / Math.tan(fov / 2 * kDeg);
   }
 
-  // Of a point in front.
+  // Pixel of a point in front.
   pixelOf(point) {
     const scale = this.focal / dot(point, this.forward);
     return [this.middle + scale * dot(point, this.right), this.middle - scale * dot(point, this.up)];
@@ -24,7 +24,7 @@ export class Perspective {
     return this.forward.map((part, k) => (part + x * this.right[k] + y * this.up[k]) / length);
   }
 
-  // Both ends, as pixels, of what is in front of the line between two points; null: nothing is.
+  // Ends, as pixels, of the part in front of the viewer of the line between two points; null: none.
   lineOf(from, to) {
     const along = to.map((part, k) => part - from[k]);
     const near = kNear * Math.hypot(...along), begin = dot(from, this.forward), end = dot(to, this.forward);

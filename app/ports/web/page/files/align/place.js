@@ -1,4 +1,4 @@
-// Where a camera stands in the machine, by known points that its picture shows.
+// Placement of a camera in the machine by known points in its picture.
 import { commandButton, element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -9,7 +9,7 @@ function number(label, name) {
 }
 
 export class Place {
-  // `give(command, values)` as Align has it.
+  // `give(command, values)`: see Align.
   constructor(give) {
     this.give = give;
     this.pixel = element("form", { id: "point" }, number(texts.place.u, "u"), number(texts.place.v, "v"),
@@ -46,7 +46,7 @@ export class Place {
     this.give("mark_point", this.#coordinates());
   }
 
-  // Somebody clicked there in the picture.
+  // Handles a click in the picture.
   pick([u, v]) {
     this.pixel.elements.u.value = u.toFixed(1);
     this.pixel.elements.v.value = v.toFixed(1);

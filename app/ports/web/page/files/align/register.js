@@ -1,4 +1,4 @@
-// How a camera stands to the first one: found, and compared by what both show.
+// Registration of a camera to the first one, and comparison of both pictures.
 import { anglesOf, directionOf } from "../elements/directions.js";
 import { commandButton, element } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -6,7 +6,7 @@ import { pictureOf, ViewFields } from "./camera_view.js";
 import { Comparison } from "./compare.js";
 import { Reload } from "./reload.js";
 
-// Where two cameras that face [a] and [b] both see best: between them; of opposite ones, beside.
+// Direction that two cameras facing [a] and [b] both see best: between them; for opposite ones, beside.
 function between(a, b) {
   const second = directionOf(b), sum = directionOf(a).map((part, k) => part + second[k]);
   return anglesOf(Math.hypot(...sum) > 0.5 ? sum : directionOf({ yaw: a.yaw + 90, pitch: 0 }));
@@ -17,7 +17,7 @@ export class Register {
   #camera = null;
   #pictures = new Reload(() => this.#load());
 
-  // `give(command, values)` as Align has it.
+  // `give(command, values)`: see Align.
   constructor(give) {
     this.button = commandButton(texts.register.run, "register_camera", give);
     this.comparison = new Comparison();

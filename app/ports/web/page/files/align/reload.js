@@ -1,4 +1,4 @@
-// Loads something again whenever what it is of has changed: one load at a time, and the last one counts.
+// Reloads data whenever its key has changed: one load at a time, and the last one wins.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -6,7 +6,7 @@ export class Reload {
   #loaded = "";
   #isLoading = false;
 
-  // `load()`: a promise. Why it failed stands in `refused`; the next call of of() tries again.
+  // `load()`: a promise. The reason of a failure is in `refused`; the next call of of() retries.
   constructor(load) {
     this.load = load;
     this.refused = element("p", { role: "alert", className: "wrong" });
@@ -16,7 +16,7 @@ export class Reload {
     this.#loaded = "";
   }
 
-  // To be called again and again.
+  // To be called repeatedly.
   async of(what) {
     const wanted = JSON.stringify(what);
     if (this.#isLoading || wanted === this.#loaded) return;

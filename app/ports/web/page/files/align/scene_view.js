@@ -1,5 +1,5 @@
-// The scene's edges over a view of the room, where all that is straight in the machine is straight.
-// Dragged onto the machine's, they turn the camera.
+// The scene's edges over a view of the room, in which straight lines of the machine are straight. Dragged
+// onto the machine's edges, they turn the camera.
 import { turnBetween } from "../elements/directions.js";
 import { element } from "../elements/elements.js";
 import { drawn, followPull, pullableLine } from "../elements/shapes.js";
@@ -14,7 +14,7 @@ export class SceneView {
   #perspective = null;  // of the picture that is shown
   #isHeld = false;      // somebody drags an edge: all stays as it is
 
-  // `give(command, values)` as Align has it.
+  // `give(command, values)`: see Align.
   constructor(give) {
     this.give = give;
     this.view = new ViewFields(() => this.#follow());

@@ -1,11 +1,11 @@
-// What has become of an alignment, of the focus and of the ball's cleanness, over time.
+// Drift of an alignment, focus and cleanness of the ball, over time.
 import { History } from "../appliance/history.js";
 import { drawChart } from "../elements/chart.js";
 import { element, setText } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
-// By figure: the one that judges it.
+// Level figure by measured figure.
 const kFigures = { drift_error: "alignment", blur: "focus", contamination: "cleanliness" };
 
 export class Watched {

@@ -1,6 +1,6 @@
-// What the appliance says about its figures, and commands to it.
+// Descriptions of the appliance's figures, and commands to it.
 
-// Its unit stands at the end of a figure's description, too.
+// A figure's description also ends with its unit.
 function described(figure) {
   const unit = figure["x-unit"] ?? "";
   const description = figure.description ?? "";
@@ -9,7 +9,7 @@ function described(figure) {
   return { unit, description: hasEnd ? description.slice(0, -end.length) : description };
 }
 
-// By kind of component ("system", "cameras"), then by name: {description, unit}.
+// Descriptions by kind of component ("system", "cameras"), then by name: {description, unit}.
 export async function describeFigures() {
   const answer = await fetch("api/v1/openapi.json");
   if (!answer.ok) throw new Error(`status ${answer.status}`);
@@ -23,7 +23,7 @@ export async function describeFigures() {
   return figures;
 }
 
-// The answer's members, with `refused` when it was not done: why not.
+// Members of the answer, with the reason as `refused` if it was not done.
 export async function answerTo(path, body) {
   try {
     const answer = await fetch(path, {
@@ -38,6 +38,6 @@ export async function answerTo(path, body) {
   }
 }
 
-// Empty when it was done, else why not.
+// Empty: done; otherwise the reason.
 export const post = async (path, body) => (await answerTo(path, body)).refused ?? "";
 export const command = (name, body) => post(`api/v1/command/${name}`, body);

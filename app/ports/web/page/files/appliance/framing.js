@@ -1,12 +1,12 @@
-// Takes the body of /api/v1/live apart. Of each message first a line of JSON, whose `bytes` says how
-// many follow it.
+// Splits the body of /api/v1/live. Each message begins with a line of JSON, whose `bytes` is the number of
+// bytes that follow.
 const kNewline = 10;
 
 export class Framing {
   #held = new Uint8Array(0);
   #head = null;
 
-  // The messages that `chunk` (Uint8Array) completes: {head, body}.
+  // Returns the messages that `chunk` (Uint8Array) completes: {head, body}.
   push(chunk) {
     const all = new Uint8Array(this.#held.length + chunk.length);
     all.set(this.#held);

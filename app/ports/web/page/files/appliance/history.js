@@ -1,10 +1,10 @@
-// The last ten minutes of one figure: what the appliance kept of it, and what came since.
+// The last ten minutes of one figure: its history from the appliance, and newer values.
 export const kHistoryMs = 600000;
-// A status says what is; the appliance also knows the peaks between two of them.
+// A status has momentary values; the appliance also keeps the peaks between two of them.
 const kAgainMs = 10000;
 
-// Of as many values as the appliance reports in that time, four a second, and some more; takes its memory
-// at once.
+// Capacity for all values that the appliance reports in that time, four per second, and some more; memory is
+// allocated at once.
 class Ring {
   static #most = 3000;
   #at = new Float64Array(Ring.#most); // ms
@@ -54,12 +54,12 @@ export class History {
     this.path = `api/v1/history?${new URLSearchParams(figure)}`;
   }
 
-  // `at` and `now` as of performance.now().
+  // `at` and `now` are times of performance.now().
   add(at, value) {
     this.#seen.add(at, value);
   }
 
-  // Asks the appliance, at once and then now and then.
+  // Requests the history from the appliance, at once and then periodically.
   async refresh(now) {
     if (now < this.#askedAt + kAgainMs) return;
     this.#askedAt = now;
@@ -68,8 +68,8 @@ export class History {
     if (kept) this.#kept = stepsOf(kept, performance.now());
   }
 
-  // {at, low, high}, oldest first; null where nothing was measured. What was seen while the appliance kept
-  // nothing, before a restart for example, counts, too.
+  // {at, low, high}, oldest first; null where nothing was measured. Includes values received while the
+  // appliance had no history, for example before a restart.
   get points() {
     const seen = this.#seen.points;
     if (this.#kept.length === 0) return seen;

@@ -1,12 +1,11 @@
-// Commands that follow somebody's hand: one at a time, and while it is carried out only the newest
-// waits.
+// Commands that follow a gesture: one at a time, and while it is executed only the newest one waits.
 import { command } from "./api.js";
 
 export class NewestCommand {
   #isSending = false;
   #waiting = null;
 
-  // `onAnswer(why)`: empty when it was done.
+  // `onAnswer(why)`: empty: done.
   constructor(name, onAnswer) {
     this.name = name;
     this.onAnswer = onAnswer;

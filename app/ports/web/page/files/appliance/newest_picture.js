@@ -23,7 +23,7 @@ export class NewestPicture {
     }
   }
 
-  // One that cannot be decoded is left out; the age of the last one says so.
+  // A picture that cannot be decoded is skipped; the age of the last one shows it.
   async #decode(message) {
     let picture;
     try {

@@ -1,9 +1,9 @@
-// The one connection over which status and pictures come. It is opened again for ever, and closed
-// while nobody looks.
+// The single connection for status and pictures. It is reopened for ever, and closed while the page is
+// hidden.
 import { Framing } from "./framing.js";
 
 const kRetryMs = 500;
-// The appliance reports four times a second; without a word for so long the connection is dead.
+// Silence after which the connection counts as dead; the appliance reports four times a second.
 const kSilenceMs = 3000;
 
 export class Stream {
@@ -12,7 +12,7 @@ export class Stream {
   #retry = 0;
   #silence = 0;
 
-  // `onMessage({head, body, received})`, `received` as of performance.now(); `onLost()`.
+  // `onMessage({head, body, received})`, `received`: time of performance.now(); `onLost()`.
   constructor(onMessage, onLost) {
     this.onMessage = onMessage;
     this.onLost = onLost;

@@ -6,7 +6,7 @@ import { figureText } from "./figures.js";
 const kLinePx = 16;  // of text
 const kGapMs = 2000;  // nothing for so long is a gap
 
-// Where values stand in a chart: shares of its height from its top, with room for a line of text
+// Vertical positions of values in a chart: shares of its height from the top, with room for a line of text
 // above and below.
 export class Scale {
   constructor(values, height) {
@@ -26,7 +26,7 @@ export class Scale {
 const measuredOf = (points) =>
   points.flatMap(({ low, high }) => [low, high]).filter((value) => value !== null);
 
-// Of what was measured, and `more` values that are to be seen; null: nothing was measured.
+// Range of the measured values and of `more` values to be visible; null: no measurement.
 export function scaleOf(canvas, history, more = []) {
   const measured = measuredOf(history.points);
   return measured.length === 0 && more.length === 0 ? null

@@ -9,7 +9,7 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
-// Writes only what is new, so that nothing selected or read aloud is disturbed.
+// Writes only changes, so that a selection or a screen reader is not disturbed.
 export function setText(where, text) {
   if (where.textContent !== text) where.textContent = text;
 }
@@ -18,8 +18,8 @@ export function field(label, properties) {
   return element("label", {}, label, " ", element("input", { required: true, ...properties }));
 }
 
-// With a heading for each of `titles`, in a part that scrolls sideways and that keys reach:
-// {root, body}.
+// Table with a heading for each of `titles`, in a horizontally scrollable part reachable by keys: {root,
+// body}.
 export function table(titles, label = "") {
   const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
   const body = element("tbody");

@@ -9,7 +9,7 @@ export function figureText(value, words) {
   return Number.isInteger(value) ? String(value) : value.toPrecision(4);
 }
 
-// Of one component: {name: value}, beside {name_text: words}.
+// Table of one component: {name: value}, with texts of codes as {name_text: text}.
 export class FigureTable {
   #rows = new Map();
 
@@ -38,7 +38,7 @@ export class FigureTable {
   }
 }
 
-// Makes something once for each name that is seen, in `root`.
+// Creates an element once for each name, in `root`.
 export class Keyed {
   #made = new Map();
 

@@ -1,4 +1,4 @@
-// Shapes over a picture or a chart, and what drags them.
+// Shapes over a picture or a chart, and their dragging.
 const kClickPx = 3;  // on the screen
 const kSvg = "http://www.w3.org/2000/svg";
 
@@ -15,7 +15,8 @@ export function place(shape, attributes) {
   for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
 }
 
-// From `event` on, which pressed `shape`. `onEnd(event, isDone)`: not done when it was taken away.
+// Drags `shape` from `event` on, which pressed it. `onEnd(event, isDone)`: not done if the drag was
+// cancelled.
 export function followDrag(shape, event, onMove, onEnd) {
   event.preventDefault();
   shape.setPointerCapture(event.pointerId);
@@ -27,16 +28,15 @@ export function followDrag(shape, event, onMove, onEnd) {
   for (const [name, listener] of Object.entries(listeners)) shape.addEventListener(name, listener);
 }
 
-// In pixels of what `svg` lies over, whose centres are at integers.
+// Position in pixels of the picture below `svg`, whose centres are at integers.
 export function pixelAt(svg, { width, height }, { clientX, clientY }) {
   const box = svg.getBoundingClientRect();
   return [(clientX - box.left) / box.width * width - 0.5,
           (clientY - box.top) / box.height * height - 0.5];
 }
 
-// A line from where `event` pressed `shape` to the pointer, over a picture of that size, until
-// `onEnd(from, to, isDone)`, a promise, is settled; pixels. Without `to` it was only clicked or, not
-// done, taken away.
+// A line from where `event` pressed `shape` to the pointer, over a picture of that size, until `onEnd(from,
+// to, isDone)`, a promise, is settled; pixels. Without `to` it was only clicked or, if not done, cancelled.
 export function followPull(svg, shape, event, size, onEnd) {
   const from = pixelAt(svg, size, event), line = drawn("path", { class: "pull" });
   svg.append(line);
@@ -51,7 +51,7 @@ export function followPull(svg, shape, event, size, onEnd) {
 
 export const pointsText = (pixels) => pixels.map((pixel) => pixel.join(",")).join(" ");
 
-// A line and, over it, the wider one that is pressed.
+// A line and, over it, a wider one for the pointer.
 export function pullableLine(pixels) {
   const points = pointsText(pixels);
   return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];

@@ -1,15 +1,15 @@
-// What the colours of one-channel cameras mean, changed by whoever may command, for all who look at it.
+// Meaning of the colours of one-channel cameras, changed by users who may command, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kSettleMs = 1000; // as for a view that is pointed
 
-// Of one camera of a view.
+// Legend of one camera of a view.
 class SourceLegend {
   #changed = -Infinity; // as of performance.now()
 
-  // `change(command, what)` is called when somebody chose; null: nobody may.
+  // `change(command, what)` is called for a choice; null: not permitted.
   constructor({ camera, unit }, maps, change) {
     Object.assign(this, { camera, unit, maps, change });
     this.first = element("span");
@@ -47,7 +47,7 @@ class SourceLegend {
     this.change(command, what);
   }
 
-  // Of the picture that is shown.
+  // Colours of the displayed picture.
   follow({ colour_map: name, range }) {
     const { stops } = this.maps.find((map) => map.name === name);
     this.shown = { camera: this.camera, unit: this.unit, range, stops };
@@ -65,8 +65,7 @@ class SourceLegend {
 }
 
 export class Legend {
-  // A view and colour maps as /api/v1/views has them; `say(what)`: why a change was refused; empty
-  // when it was not.
+  // A view and colour maps from /api/v1/views; `say(what)`: reason of a refused change; empty: accepted.
   constructor({ index, sources }, maps, mayCommand, say) {
     const commands = sources.map(() => ({}));
     const change = (source) => (name, what) => {
@@ -77,7 +76,7 @@ export class Legend {
     this.root = element("div");
   }
 
-  // `colours` in the picture that is shown, by source; null: the camera's own.
+  // `colours` in the displayed picture, by source; null: the camera's own.
   follow(colours) {
     this.sources.forEach((source, n) => {
       if (!colours[n]) return source.root.remove();
@@ -86,7 +85,7 @@ export class Legend {
     });
   }
 
-  // {camera, unit, range, stops} of each camera that is coloured in the picture that is shown.
+  // {camera, unit, range, stops} of each coloured camera in the displayed picture.
   get shown() {
     return this.sources.filter(({ root }) => root.parentNode).map(({ shown }) => shown);
   }

@@ -1,4 +1,4 @@
-// Views, tiled.
+// Views in tiles.
 import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { texts } from "../texts.js";
@@ -9,7 +9,7 @@ export class Live {
   #faults = "";
   #isStale = true; // what is known of the views may be of before a restart
 
-  // `mayCommand`: turn, mix and colour views.
+  // `mayCommand`: the user may turn, mix and colour views.
   constructor(root, onChoice, mayCommand) {
     this.root = root;
     this.onChoice = onChoice;

@@ -1,4 +1,4 @@
-// The shares of a view's cameras, changed by sliders, for all who look at it.
+// Shares of a view's cameras, changed by sliders, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -10,8 +10,8 @@ export class Mixer {
   #weights = [];
   #mixed = -Infinity; // as of performance.now()
 
-  // A view as /api/v1/views has it; `say(what)`: why it was not mixed; empty when it was. A slider
-  // for each camera beside the first one.
+  // A view from /api/v1/views; `say(what)`: reason of a refusal; empty: accepted. There is a slider for each
+  // camera besides the first one.
   constructor({ index, sources }, say) {
     const answer = (why) => say(why ? texts.refused(why) : "");
     this.index = index;
@@ -25,7 +25,7 @@ export class Mixer {
       element("label", {}, texts.shareOf(sources[n + 1].camera, sources[0].camera), " ", slider)));
   }
 
-  // The weights in the picture that is shown.
+  // Weights in the displayed picture.
   follow(weights) {
     if (performance.now() - this.#mixed < kSettleMs) return;
     this.#weights = weights;

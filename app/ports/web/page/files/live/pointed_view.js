@@ -1,16 +1,16 @@
-// A view that the appliance points, turned by whoever looks at it, for all who do.
+// A view that the appliance points, turned by a user for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { followFingers, followKeys, followWheel, Gaze } from "../look/gaze.js";
 import { texts } from "../texts.js";
 
-// Until the picture shows what was commanded last, it does not say where the view looks.
+// Time for which the picture's direction is ignored until it shows the last command.
 const kSettleMs = 1000;
 
 export class PointedView {
   #view = null;
   #turned = -Infinity; // as of performance.now()
 
-  // `say(what)`: why it was not turned; empty when it was.
+  // `say(what)`: reason of a refusal; empty: accepted.
   constructor(canvas, mayCommand, say) {
     this.canvas = canvas;
     this.mayCommand = mayCommand;
@@ -23,7 +23,7 @@ export class PointedView {
     followKeys(canvas, this.gaze, true);
   }
 
-  // As /api/v1/views has it.
+  // The view's entry in /api/v1/views.
   describe(view) {
     const { yaw, pitch, h_fov: fov } = view.configured;
     this.#view = view;
@@ -32,7 +32,7 @@ export class PointedView {
     this.canvas.classList.toggle("pointed", this.#mayTurn);
   }
 
-  // Where the picture that is shown looks.
+  // Direction of the displayed picture.
   follow({ yaw, pitch, roll, h_fov: fov }) {
     if (performance.now() - this.#turned < kSettleMs) return;
     Object.assign(this.gaze, { yaw, pitch, roll, fov });

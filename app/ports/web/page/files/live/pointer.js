@@ -1,5 +1,4 @@
-// What the picture that is seen shows at the place to which somebody points: with the mouse, by a tap,
-// or by a crosshair that keys move.
+// Values of the displayed picture at the pointer: the mouse, a tap, or a crosshair moved by keys.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -17,7 +16,7 @@ export class Pointer {
   #kept = 0; // number of the first picture that the appliance has kept; 0: of none
   #willSay = false; // aloud
 
-  // `canvas` has the number of the picture that it shows as data.
+  // `canvas` has the number of its picture as data.
   constructor(view, canvas) {
     this.view = view;
     this.canvas = canvas;
@@ -34,7 +33,7 @@ export class Pointer {
     canvas.addEventListener("keydown", (event) => this.#key(event));
   }
 
-  // Another picture is shown.
+  // Handles a new displayed picture.
   follow() {
     if (this.#place) this.#ask();
   }
@@ -77,7 +76,7 @@ export class Pointer {
     this.#ask();
   }
 
-  // One question at a time, about what is seen when it is asked.
+  // Sends one request at a time, for the picture displayed at that moment.
   async #ask() {
     this.#isNews = true;
     if (this.#isAsking) return;
@@ -85,7 +84,7 @@ export class Pointer {
     while (this.#isNews && this.#place && this.canvas.dataset.number) {
       this.#isNews = false;
       const { u, v } = this.#place, number = Number(this.canvas.dataset.number);
-      // After a restart of the appliance they begin with 1.
+      // Numbers begin with 1 after a restart of the appliance.
       if (number < this.#asked) this.#kept = 0;
       this.#asked = number;
       if (!this.#kept) await this.#begin({ u, v });
@@ -94,7 +93,7 @@ export class Pointer {
     this.#isAsking = false;
   }
 
-  // The first question has the appliance keep the pictures from the next one on.
+  // The first request makes the appliance keep pictures from the next one on.
   async #begin(place) {
     const { said } = await this.#answer(place);
     this.#kept = said?.number ?? 0;

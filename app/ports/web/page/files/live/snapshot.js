@@ -1,4 +1,4 @@
-// The picture that is seen as a file, with what it is of and what its colours mean.
+// The displayed picture as a file, with its name and the legend of its colours.
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -20,7 +20,7 @@ function addLegend(context, { camera, range, unit, stops }, y) {
   x = addText(context, texts.amount(range[1], unit), x + kRamp + kMargin, y);
 }
 
-// `legends` as Legend has them shown.
+// `legends`: see Legend.
 export function snapshotOf(name, canvas, legends) {
   const all = new OffscreenCanvas(canvas.width, canvas.height + (1 + legends.length) * kLine);
   const context = all.getContext("2d");

@@ -1,5 +1,4 @@
-// One view: its picture, how old that is, what it shows where somebody points, where it looks, how it
-// mixes its cameras and in which colours it shows them.
+// One view: its picture with its age, values at the pointer, direction, weights and colours of its cameras.
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -41,7 +40,7 @@ export class Tile {
       element("figcaption", {}, element("strong", {}, name), this.age, snapshot, full));
   }
 
-  // As /api/v1/views has it, and colour maps.
+  // The view's entry and the colour maps of /api/v1/views.
   describe(view, maps) {
     this.pointed.describe(view);
     this.legend = new Legend(view, maps, this.mayCommand, this.say);

@@ -1,4 +1,4 @@
-// Where somebody looks, and how mouse, wheel, fingers and keys turn it.
+// Viewing direction, turned by mouse, wheel, fingers and keys.
 import { anglesOf, axesOf, kDeg } from "../elements/directions.js";
 
 const kNarrowest = 5, kWidest = 140; // degrees
@@ -22,7 +22,7 @@ export class Gaze {
     this.widest = widest;
   }
 
-  // Looks where the camera sees best, unless somebody has turned it already.
+  // Looks in the camera's best direction, unless the user has turned it already.
   begin(direction) {
     if (this.#home) return;
     this.#home = { ...anglesOf(direction), fov: 90 };
@@ -45,7 +45,7 @@ export class Gaze {
   turn(yaw, pitch) {
     this.look(this.yaw + yaw, this.pitch + pitch, this.fov);
   }
-  // As if the picture were moved, degrees in its own directions.
+  // Turns as if the picture were moved, degrees along its own axes.
   drag(right, up) {
     const roll = this.roll * kDeg, c = Math.cos(roll), s = Math.sin(roll);
     this.turn(-(right * c + up * s), -(up * c - right * s));
@@ -54,7 +54,7 @@ export class Gaze {
     this.look(this.yaw, this.pitch, this.fov / factor);
   }
 
-  // Columns of right, up and forward, and the tangent of half the field of view.
+  // Column vectors right, up and forward, and the tangent of half the field of view.
   get view() {
     const { right, up, forward } = axesOf(this);
     return { axes: [...right, ...up, ...forward], tangent: Math.tan((this.fov * kDeg) / 2) };
@@ -93,7 +93,7 @@ export function followFingers(canvas, gaze) {
   }
 }
 
-// `isMeant()`: else the wheel scrolls the page.
+// `isMeant()`: false lets the wheel scroll the page.
 export function followWheel(canvas, gaze, isMeant = () => true) {
   canvas.addEventListener("wheel", (event) => {
     if (!isMeant()) return;
@@ -102,7 +102,7 @@ export function followWheel(canvas, gaze, isMeant = () => true) {
   }, { passive: false });
 }
 
-// `withShift`: arrows turn with shift only.
+// `withShift`: arrows turn only with shift.
 export function followKeys(canvas, gaze, withShift = false) {
   canvas.addEventListener("keydown", (event) => {
     const step = gaze.fov * kKeyShare;

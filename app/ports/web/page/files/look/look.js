@@ -1,5 +1,5 @@
-// The room as seen from the ball, turned by whoever looks: drawn here, or by the appliance where
-// the browser has no WebGL.
+// The room as seen from the ball, turned by the user: drawn here, or by the appliance if the browser has no
+// WebGL.
 import { Framing } from "../appliance/framing.js";
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
@@ -17,7 +17,7 @@ async function listViews() {
   return answer.json();
 }
 
-// One camera's mesh, asked for again only by its tag: {head, body}, or null when it is the same.
+// One camera's mesh, requested again with its tag: {head, body}; null: unchanged.
 class Meshes {
   #tags = new Map();
 
@@ -76,7 +76,7 @@ export class Look {
     return !this.root.hidden;
   }
 
-  // Names of the views that are needed while it is shown.
+  // Names of the views needed while it is shown.
   get views() {
     if (this.server) return this.server.views;
     return [this.first.value, this.second.value].filter(Boolean);

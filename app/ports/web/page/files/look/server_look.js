@@ -1,12 +1,11 @@
-// Looking around where the browser has no WebGL: the appliance points one of its views, for all who
-// look at it.
+// Looking around without WebGL: the appliance points one of its views, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 export class ServerLook {
-  // `pointed`: the views that can be pointed, {name, index}; `onPicture({age_ms, received})`.
+  // `pointed`: views that can be pointed, {name, index}; `onPicture({age_ms, received})`.
   constructor(canvas, gaze, pointed, onPicture) {
     this.gaze = gaze;
     this.pointed = pointed;

@@ -39,8 +39,8 @@ out vec4 colour;
 void main() {
   vec3 half_way = normalize(normalize(place) + facing);
   vec2 pixel = centre + vec2(dot(across, half_way), dot(down, half_way)) + beside;
-  // As the appliance does (proc/remap): beyond a step of 1.4 px, the mean of four places in the
-  // pixel, read from the mip level below the one whose step is allowed.
+  // Filtering of the appliance (proc/remap): beyond a step of 1.4 px, the mean of four places in the pixel,
+  // read from the mip level below the one whose step is allowed.
   vec2 right = dFdx(pixel), below = dFdy(pixel);
   float step = sqrt(max(dot(right, right), dot(below, below)));
   float level = clamp(ceil(log2(step / 1.4)), 0.0, 3.0);
@@ -53,7 +53,7 @@ void main() {
       shown += 0.25 * textureLod(picture, (point + 0.5) / size, level - 1.0).rgb;
     }
   }
-  // From 1 px per degree, blue, over green to 16, red.
+  // Colours from 1 px per degree, blue, over green to 16, red.
   float t = clamp(log2(max(sharpness, 1.0)) / 4.0, 0.0, 1.0);
   vec3 ramp = clamp(vec3(2.0 * t - 1.0, 1.0 - abs(2.0 * t - 1.0), 1.0 - 2.0 * t), 0.0, 1.0);
   colour = vec4(mix(shown, ramp, heat), opacity);
@@ -133,7 +133,7 @@ class Sphere {
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, picture);
-    // Only where a view is smaller than the ball's picture.
+    // Used only if a view has a lower resolution than the ball's picture.
     gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
@@ -163,7 +163,7 @@ export class SpherePainter {
     this.begin();
   }
 
-  // Also after a lost context, with which everything is lost.
+  // Also called after a lost context, with which all objects are lost.
   begin() {
     const gl = this.gl;
     this.#spheres.clear();
@@ -175,7 +175,7 @@ export class SpherePainter {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  // `mesh`: {head, body} as /api/v1/sphere sends it.
+  // `mesh`: {head, body} from /api/v1/sphere.
   setMesh(name, mesh) {
     this.#spheres.get(name)?.free();
     this.#spheres.set(name, new Sphere(this.gl, mesh));
@@ -203,10 +203,10 @@ export class SpherePainter {
     };
     const first = ready(shown.first), second = ready(shown.second);
     const heat = shown.resolution ? 0.5 : 0;
-    // Each fills what the other does not see.
+    // Each camera fills directions that the other does not see.
     for (const sphere of [first, second]) {
       if (!sphere) continue;
-      // Where small triangles meet a large one a pixel may fall between them: it shows this.
+      // Background for pixels that fall between small triangles and a large one.
       this.#drawSphere(sphere, view, 1, heat, [0.5, 0.5]);
       this.#drawSphere(sphere, view, 1, heat);
     }
@@ -239,7 +239,7 @@ export class SpherePainter {
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.bindVertexArray(sphere.room);
     gl.disable(gl.BLEND);
-    // The blind cone only hides what is behind.
+    // The blind cone only hides the background.
     gl.colorMask(false, false, false, false);
     this.#place(this.plain, view, shift, 1);
     gl.drawElements(gl.TRIANGLES, 3 * head.blind, gl.UNSIGNED_INT, 12 * head.triangles);

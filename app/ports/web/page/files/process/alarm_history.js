@@ -1,4 +1,4 @@
-// What happened to alarms, as the appliance kept it.
+// Events of alarms, kept by the appliance.
 import { element, table } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
@@ -17,7 +17,7 @@ export class AlarmHistory {
     this.#show([]);
   }
 
-  // Asks for them when there are others than those that are shown; `count` of all since the start.
+  // Requests them if there are newer ones than shown; `count`: number of all since the start.
   async refresh(count) {
     if (count === this.#count) return;
     this.#count = count;

@@ -27,7 +27,7 @@ export class LimitLines {
     this.fields = element("div", { className: "limits" });
   }
 
-  // Of a region's signal.
+  // Limits of a region's signal.
   choose(region, signal) {
     this.alarms = this.recipe.alarmsOf(region, signal);
     this.svg.replaceChildren();
@@ -50,7 +50,7 @@ export class LimitLines {
       }));
   }
 
-  // What a chart must have room for.
+  // Values that a chart must include.
   get values() {
     return (this.alarms ?? []).flatMap((alarm) => kLimits.map((name) => this.recipe.limit(alarm, name)))
       .filter((value) => value !== null);
@@ -108,7 +108,7 @@ export class LimitLines {
     this.draw(this.drawn, this.svg.clientWidth);
   }
 
-  // The scale stays meanwhile, or the line would run from the pointer.
+  // The scale is fixed meanwhile; otherwise the line would run away from the pointer.
   #drag(event, { grip, root }, alarm, name) {
     if (event.button !== 0 || !this.drawn) return;
     root.focus();

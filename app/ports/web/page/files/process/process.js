@@ -1,5 +1,4 @@
-// Alarms, signals of the regions and their last ten minutes, and by what limits and where they are
-// measured.
+// Alarms, signals of the regions with their last ten minutes, their limits and outlines.
 import { command } from "../appliance/api.js";
 import { History } from "../appliance/history.js";
 import { drawChart, scaleOf } from "../elements/chart.js";
@@ -81,7 +80,7 @@ class Region {
       this.table.root);
   }
 
-  // What somebody holds is not made anew under his hands.
+  // Elements being dragged are not recreated.
   #isEdited() {
     return [this.limits.svg, this.limits.fields].some((part) => part.contains(document.activeElement));
   }
@@ -117,7 +116,7 @@ class Region {
 }
 
 export class Process {
-  // `mayChange`: limits and regions. `onChoice()`: another view is needed.
+  // `mayChange`: the user may change limits and regions. `onChoice()`: another view is needed.
   constructor(root, figures, mayChange, onChoice) {
     this.root = root;
     this.recipe = new Recipe();

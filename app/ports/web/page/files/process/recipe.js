@@ -1,4 +1,4 @@
-// The recipe in force, and what somebody changed of it that was not sent yet.
+// The selected recipe, and its unsent changes.
 import { texts } from "../texts.js";
 
 const kNothing = { number: 0, views: [], regions: [], alarms: [] };
@@ -18,7 +18,7 @@ export class Recipe extends EventTarget {
   #removed = new Set(); // names of regions
   stated = kNothing;
 
-  // Loads it anew when another one runs.
+  // Loads it again if another one runs.
   async status({ system }) {
     const running = `${system.recipe} ${system.configuration_checksum}`;
     if (running === this.#loaded || this.#isLoading) return;
@@ -53,14 +53,14 @@ export class Recipe extends EventTarget {
     this.#changed();
   }
 
-  // As they are drawn: {name, view, kind, corners: [{at, pixel}], lines, threshold of a new one}.
+  // Regions as drawn: {name, view, kind, corners: [{at, pixel}], lines, threshold of a new one}.
   get regions() {
     const stated = this.stated.regions.filter(({ name }) => !this.#removed.has(name))
       .map((region) => this.#regions.get(region.name) ?? region);
     return [...stated, ...[...this.#regions.values()].filter(({ threshold }) => threshold !== undefined)];
   }
 
-  // Gives it corners where its view shows these pixels; what was not moved keeps its coordinates.
+  // Sets corners from these pixels of its view; corners that were not moved keep their coordinates.
   async setRegion(region, pixels) {
     const query = new URLSearchParams({ number: this.stated.number, view: region.view, pixels: pixels.flat() });
     const { corners, lines } = await answered(`api/v1/recipe/polygon?${query}`);
@@ -75,7 +75,7 @@ export class Recipe extends EventTarget {
     this.#changed();
   }
 
-  // With its alarms.
+  // Removes a region with its alarms.
   removeRegion(name) {
     if (this.stated.regions.some((region) => region.name === name)) this.#removed.add(name);
     this.#regions.delete(name);
@@ -83,13 +83,13 @@ export class Recipe extends EventTarget {
     this.#changed();
   }
 
-  // {name, alarms: their numbers} of each region that goes.
+  // {name, alarms: their numbers} of each removed region.
   get removed() {
     return [...this.#removed].map((name) => ({ name,
       alarms: this.stated.alarms.filter(({ region }) => region === name).map(({ alarm }) => alarm) }));
   }
 
-  // The body of check_recipe and try_recipe; null: nothing was changed.
+  // The body of check_recipe and try_recipe; null: no changes.
   get body() {
     if (this.#limits.size + this.#regions.size + this.#removed.size === 0) return null;
     const regions = [...this.#regions.values()].map(({ name, view, kind, corners, threshold }) => ({

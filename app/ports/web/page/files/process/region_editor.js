@@ -30,7 +30,7 @@ export class RegionEditor {
     this.canvas.dataset.number = head.number;
   });
 
-  // `onView()`: another view is shown.
+  // `onView()`: another view is displayed.
   constructor(recipe, mayChange, onView) {
     Object.assign(this, { recipe, mayChange, onView });
     this.view = element("select", { name: "view" });
@@ -112,7 +112,7 @@ export class RegionEditor {
     setText(this.said, this.recipe.removed.map(texts.process.removed).join(" "));
   }
 
-  // Corners that the view does not show are nobody's to drag.
+  // Corners outside the view cannot be dragged.
   #cornersOf(region) {
     const isChanging = this.#pixels && region?.name === this.#changing.name;
     const pixels = isChanging ? this.#pixels : region?.corners.map(({ pixel }) => pixel) ?? [];
@@ -172,7 +172,7 @@ export class RegionEditor {
     return handle;
   }
 
-  // Pressed it is a corner, which may be dragged at once.
+  // Pressing it makes it a corner, which can be dragged at once.
   #addMiddle() {
     const index = this.#middles.length;
     const middle = drawn("circle", { class: "middle", tabindex: 0, role: "button" });
@@ -198,7 +198,7 @@ export class RegionEditor {
     return middle;
   }
 
-  // What was changed of the one before still counts.
+  // Changes of the previous region are kept.
   #choose() {
     clearTimeout(this.#settle);
     this.#apply();
@@ -210,7 +210,7 @@ export class RegionEditor {
     setText(this.cornerRemoval, texts.process.removeCorner(index + 1));
   }
 
-  // `event`: the key that asked for it, so that the focus stays at the corners.
+  // `event`: the key event that requested it, so that the focus stays at the corners.
   #removeCorner(index, event = null) {
     event?.preventDefault();
     this.#change((pixels) => pixels.toSpliced(index, 1));
@@ -223,12 +223,12 @@ export class RegionEditor {
     this.recipe.removeRegion(this.choice.value);
   }
 
-  // Of a pixel on the screen.
+  // Size of a screen pixel.
   #scale() {
     return this.canvas.width / (this.svg.clientWidth || this.canvas.width);
   }
 
-  // A rectangle may be drawn over the picture.
+  // Lets the user draw a rectangle over the picture.
   #isDrawable({ kind, threshold }) {
     return kind === "whole_view" || threshold !== undefined;
   }
@@ -282,7 +282,7 @@ export class RegionEditor {
     this.#change(moved(key[0] * step, key[1] * step));
   }
 
-  // About the middle of its corners.
+  // Scales about the middle of its corners.
   #press(event) {
     this.#pressArrow(event, (du, dv) => (pixels) => pixels.map(([u, v]) => [u + du, v + dv]));
     const factor = { "+": kGrowth, "-": 1 / kGrowth }[event.key];
@@ -306,7 +306,7 @@ export class RegionEditor {
     if (this.#pixels === pixels) this.#forget(); // nobody went on meanwhile
   }
 
-  // Whether the appliance has places for them.
+  // Returns whether the appliance has coordinates for them.
   async #give(region, pixels) {
     try {
       await this.recipe.setRegion(region, pixels);
@@ -318,7 +318,7 @@ export class RegionEditor {
     }
   }
 
-  // In the middle of the view.
+  // New region in the middle of the view.
   async #add(event) {
     event.preventDefault();
     const { name, threshold } = this.form.elements, { width, height } = this.canvas;

@@ -1,4 +1,4 @@
-// Logging in and out, and the first password.
+// Login and logout, and the first password.
 import { post } from "../appliance/api.js";
 import { element, field, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -15,7 +15,7 @@ export async function session() {
   return answer.json();
 }
 
-// `send(values)` returns why it was refused, or nothing; then the page begins anew.
+// `send(values)` returns the reason of a refusal, or nothing; then the page is reloaded.
 function showForm(title, fields, action, send) {
   const refusal = element("p", { role: "alert", className: "wrong" });
   const form = element("form", {}, ...fields, element("button", {}, action), refusal);
@@ -50,7 +50,7 @@ function newPasswordFields(characters) {
   ];
 }
 
-// On another computer than the appliance.
+// Form on a computer other than the appliance.
 function showFirstCode(characters) {
   showForm(texts.firstPasswordTitle, [
     element("p", {}, texts.whereTheCodeIs(kFirstUser)),
@@ -85,7 +85,7 @@ function showAccount({ user, role, has_users: hasUsers, password_characters: cha
   account.replaceChildren(element("span", {}, name), " ", button);
 }
 
-// Returns the session once whoever looks may see the page; until then there is a form. For ever: the
+// Returns the session once the user may see the page; until then shows a form. Retries for ever, because the
 // appliance may start later than the page.
 export async function admit(onNoAnswer) {
   for (;;) {
@@ -105,7 +105,7 @@ export async function admit(onNoAnswer) {
   }
 }
 
-// After a lost connection: a session that has ended is begun anew.
+// After a lost connection: asks for a new login if the session has ended.
 export async function askAgain() {
   const present = await session().catch(() => null);
   if (present && !present.role && !isSending) location.reload();

@@ -5,10 +5,10 @@ import { Trial } from "./trial.js";
 
 const kKeptMs = 1000;  // a download's text, for the browser to take it
 
-// Text fields know no line ends but \n.
+// Text fields support only \n as line end.
 const plain = (text) => text.replaceAll("\r\n", "\n");
 
-// One file. What is not touched is never sent, so no byte of it changes.
+// One file. Unchanged files are never sent, so that no byte of them changes.
 class FileEditor {
   constructor({ name, text, may_change: mayChange, checksum }) {
     this.name = name;
@@ -33,14 +33,14 @@ class FileEditor {
     this.take(text);
   }
 
-  // As a text of its own, by whatever way it came.
+  // Sets a new text, from any source.
   take(text) {
     this.base = text;
     this.area.value = text;
     this.#showMark();
   }
 
-  // Changes by somebody else are not taken over under a change made here.
+  // Changes by another user do not replace a change made here.
   update({ text, checksum }) {
     const mayFollow = !this.isChanged || this.text === text;
     this.onDisk = text;
@@ -126,7 +126,7 @@ export class Configuration {
     this.upload.value = "";
   }
 
-  // Null: nothing was.
+  // Null: no changes.
   #changed() {
     const changed = [...this.#editors.values()].filter((editor) => editor.isChanged);
     if (changed.length === 0) return null;

@@ -1,4 +1,4 @@
-// All appliances of the DDS domain, while they are looked at.
+// All appliances of the DDS domain, updated while shown.
 import { post } from "../appliance/api.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -96,7 +96,7 @@ export class Fleet {
     appliances.forEach((appliance, place) => {
       const card = this.#card(appliance.id);
       card.show(appliance);
-      // Moves only what is elsewhere, so that nobody loses the place where he is.
+      // Moves only misplaced elements, so that focus and scroll position are kept.
       if (this.list.children[place] !== card.root) {
         this.list.insertBefore(card.root, this.list.children[place] ?? null);
       }

@@ -1,11 +1,11 @@
-// What the interfaces show of themselves, while it is looked at: registers, clients, topics.
+// Tables of the interfaces, updated while shown: registers, clients, topics.
 import { element, field, setText, table } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
 const kAgainMs = 2000;
 
-// One table, whose rows are made anew when there are more or fewer.
+// One table, whose rows are recreated when their number changes.
 class LiveTable {
   #rows = [];
 
@@ -83,7 +83,7 @@ export class Interfaces {
   }
 }
 
-// Versions, and who may command, once.
+// Versions, and interfaces that accept commands, loaded once.
 export async function showAbout(root) {
   const answer = await fetch("api/v1/about").catch(() => null);
   if (!answer?.ok) return;

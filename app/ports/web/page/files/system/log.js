@@ -1,4 +1,4 @@
-// The newest lines of the appliance's log, while they are looked at.
+// The newest lines of the appliance's log, updated while shown.
 import { element, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -42,7 +42,7 @@ export class Log {
     this.#again = setTimeout(() => this.#read(asked), kAgainMs);
   }
 
-  // The newest on top. After a restart the appliance counts from 1 again.
+  // The newest lines are on top. After a restart the appliance counts from 1 again.
   #show({ lines, newest }) {
     if (newest < this.#newest) return this.#begin();
     for (const line of lines) {

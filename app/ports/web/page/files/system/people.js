@@ -1,4 +1,4 @@
-// For administrators: who may log in, which programs have a token, and who did what.
+// Users, tokens of programs and the audit, for administrators.
 import { answerTo, post } from "../appliance/api.js";
 import { element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";

@@ -1,4 +1,4 @@
-// Where the processor time of a frame set goes, beside the time that there is for one.
+// Processor time of a frame set by stage, compared with its deadline.
 import { element, setText, table } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";

@@ -1,9 +1,9 @@
-// Everything that is known about the appliance, its cameras and views.
+// Complete status of the appliance, its cameras and views.
 import { element } from "../elements/elements.js";
 import { FigureTable, Keyed } from "../elements/figures.js";
 import { Stages } from "./stages.js";
 
-// Shown elsewhere, or no component.
+// Shown elsewhere, or not a component.
 const kElsewhere = new Set(["stamp", "age", "regions", "alarms", "stages"]);
 
 export class System {

@@ -1,5 +1,5 @@
-// New texts of the configuration: checked, tried out, confirmed or taken back. The appliance restarts
-// with them meanwhile.
+// New texts of the configuration: checked, tried out, confirmed or reverted. The appliance restarts with them
+// meanwhile.
 import { answerTo } from "../appliance/api.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -12,8 +12,8 @@ export class Trial {
   #again = 0;
   #trial = null;
 
-  // `what` is sent to check_WHAT and try_WHAT; `changes()` makes the body, null: nothing was changed.
-  // `isShown()`: somebody looks. `onState(state)`: the files, again and again.
+  // `what` is sent to check_WHAT and try_WHAT; `changes()` makes the body, null: no changes. `isShown()`: the
+  // page is visible. `onState(state)`: called repeatedly with the files.
   constructor(what, changes, isShown, { onState = () => {}, onTried = () => {} } = {}) {
     Object.assign(this, { what, changes, isShown, onState, onTried });
     this.said = element("p", { role: "status" });
@@ -42,7 +42,7 @@ export class Trial {
     this.said.classList.toggle("wrong", isWrong);
   }
 
-  // With a trial again and again, since the appliance restarts meanwhile.
+  // Repeated during a trial, because the appliance restarts meanwhile.
   async refresh() {
     clearTimeout(this.#again);
     if (!this.isShown()) return;
