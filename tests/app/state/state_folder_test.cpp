@@ -64,7 +64,7 @@ TEST_F(StateFolder, OfAnotherConfigurationIsRefusedWithWhatToSay) {
   runs_with("orbwatch", "/data/first.toml");
   EXPECT_THAT(found(first_), AllOf(HasSubstr("orbwatch: is the state folder of /data/first.toml"),
                                    HasSubstr("not of /etc/orbwatch/site.toml"),
-                                   HasSubstr("say --config /data/first.toml")));
+                                   HasSubstr("pass --config /data/first.toml")));
   EXPECT_THAT(found("/home/kim/site.toml"), HasSubstr("STATE_DIRECTORY=FOLDER"));
 
   runs_with("orbwatch-press", second_);

@@ -335,8 +335,8 @@ TEST(ModbusWriters, OthersMayOnlyRead) {
   EXPECT_EQ(tests::receive_pdu(again), (tests::Bytes{0x90, 1}));
   // The log line appears once, in the syntax of the site file.
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "orbwatch: modbus: refuses to let 127.0.0.1 write; if it may, the line for [modbus] of "
-            "the site file is writers = [\"192.0.2.7\", \"127.0.0.2\", \"127.0.0.1\"]\n");
+            "orbwatch: modbus: write refused to 127.0.0.1; to permit it, set in [modbus] of the "
+            "site file: writers = [\"192.0.2.7\", \"127.0.0.2\", \"127.0.0.1\"]\n");
 
   RawClient writer(sink.port(), "127.0.0.2");
   ASSERT_TRUE(writer.send(tests::frame(write)));
