@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/version.h"
 
 #include "hal/libraries.h"

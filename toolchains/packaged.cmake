@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The Debian packages' compiler and linker options (dpkg-buildflags, with the choices of
 # platform/debian/rules), and where the packages install: `platform/build-deb --here` packs this build.
 find_program(ORBWATCH_BUILDFLAGS dpkg-buildflags)

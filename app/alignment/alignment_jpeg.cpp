@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/alignment/alignment_jpeg.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/alignment/found_outline.h"
 
 #include "app/alignment/figure_text.h"

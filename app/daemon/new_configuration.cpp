@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/daemon/new_configuration.h"
 
 #include "app/daemon/replaceable_file.h"

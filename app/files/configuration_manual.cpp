@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/files/configuration.h"
 #include "app/files/manual_writer.h"
 

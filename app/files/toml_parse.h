@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // Without NDEBUG, toml++ 3.3 would end the program if a table's name begins with a wrong character;

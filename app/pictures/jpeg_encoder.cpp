@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/pictures/jpeg_encoder.h"
 
 #include <turbojpeg.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/service/journal.h"
 
 // The source location would always be this file.

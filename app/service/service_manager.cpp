@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/service/service_manager.h"
 
 #include <systemd/sd-daemon.h>

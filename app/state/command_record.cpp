@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/state/command_record.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/frame/dma_heap.h"
 
 #include <fcntl.h>

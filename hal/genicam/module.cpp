@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <arv.h>
 
 #include "hal/genicam/genicam_camera.h"

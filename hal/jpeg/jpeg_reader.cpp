@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/jpeg/jpeg_reader.h"
 
 #include <jerror.h>

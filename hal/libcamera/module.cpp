@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <libcamera/camera_manager.h>
 
 #include "hal/libcamera/libcamera_camera.h"

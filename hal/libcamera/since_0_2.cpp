@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <libcamera/property_ids.h>
 #include <sys/sysmacros.h>
 

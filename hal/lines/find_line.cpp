@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/lines/find_line.h"
 
 #include <grp.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/replay/png_check.h"
 
 #include <zlib.h>

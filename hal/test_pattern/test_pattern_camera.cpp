@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/test_pattern/test_pattern_camera.h"
 
 #include <algorithm>

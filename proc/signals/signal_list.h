@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The list of what is measured in a region of interest, one line per signal. signals.h turns it
  * into the struct Signals and the table kSignals; interfaces and manuals walk that table.
  *

@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 /// What the documents say about the tree must be there.
 namespace orbwatch::tests {
@@ -69,6 +72,27 @@ TEST(Documents, CommandsOfTheReadmeAreExecutable) {
     EXPECT_NE(readme.find(std::string("./") + command), std::string::npos);
     EXPECT_NE(fs::status(root / command).permissions() & fs::perms::owner_exec, fs::perms::none);
   }
+}
+
+/// A licence within the first lines, by which tools find it (SPDX).
+TEST(Documents, SourcesStateTheirLicence) {
+  const fs::path root = ORBWATCH_SOURCE_DIR;
+  const std::vector<std::string> kinds{".c", ".cmake", ".cpp", ".css", ".h", ".js", ".py"};
+  int sources = 0;
+  for (const char* top : {"app", "hal", "platform", "proc", "tests", "toolchains"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const std::string file = entry.path().string();
+      const bool is_source = std::ranges::count(kinds, entry.path().extension().string()) > 0 ||
+                             entry.path().filename() == "CMakeLists.txt";
+      // idlc writes what is generated.
+      if (!is_source || file.find("/dds/generated/") != std::string::npos) continue;
+      EXPECT_NE(read(entry.path()).substr(0, 100).find("SPDX-License-Identifier: Apache-2.0"),
+                std::string::npos)
+          << file;
+      ++sources;
+    }
+  }
+  EXPECT_GT(sources, 1000);
 }
 
 TEST(Documents, FullFoldersSayWhatLivesThere) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A TCG plugin that counts the memory that a program touches in one stretch of its work:
  *
  *   qemu-aarch64 -plugin ./libcount_bytes.so,out=FILE program ...

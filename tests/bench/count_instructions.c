@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A TCG plugin that counts the instructions a program executes under qemu-user:
  *
  *   qemu-aarch64 -plugin ./libcount_instructions.so,out=FILE program ...

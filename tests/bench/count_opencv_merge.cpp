@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/counted_merge.h"
 #include "tests/bench/opencv_merge.h"
 

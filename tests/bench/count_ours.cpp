@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/counted_run.h"
 #include "tests/bench/our_remap.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A TCG plugin that counts the instructions of a pipeline's frame set, and of its stages:
  *
  *   qemu-aarch64 -plugin ./libcount_stages.so,out=FILE program ...

@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC2034,SC2154
 # Sourced by the scripts that count instructions of aarch64 programs under qemu-user. $out: folder
 # for their output.
+# SPDX-License-Identifier: Apache-2.0
 
 host=build/release/tests/bench
 target=build/aarch64/tests/bench

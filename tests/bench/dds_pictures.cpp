@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/dds_pictures.h"
 
 #include <opencv2/imgproc.hpp>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """instruction_gates.py FOLDER: checks the instruction counts of tests/bench/instructions.
 
 Reads instructions.txt in FOLDER (lines: group, case, instructions, and pixels that share them; the

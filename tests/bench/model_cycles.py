@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """model_cycles.py BUILD_FOLDER: models the cycles of the NEON kernels' inner loops with llvm-mca.
 
 Compiles kernel/neon.cpp to assembler like BUILD_FOLDER for aarch64, finds the innermost loops

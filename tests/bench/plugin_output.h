@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A plugin's one argument, out=FILE, and the line of numbers that it writes there. */
 #ifndef ORBWATCH_TESTS_BENCH_PLUGIN_OUTPUT_H
 #define ORBWATCH_TESTS_BENCH_PLUGIN_OUTPUT_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* What our plugins use of QEMU's TCG plugin interface: Debian packages no qemu-plugin.h. These
  * parts are the same in every version of it; only the version number that a plugin has to name
  * differs. */

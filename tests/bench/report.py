@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """report.py FOLDER: makes remap.md and remap.json from the measurements of tests/bench/run.
 
 Reads instructions.txt (instruction_gates.py), peer.txt (lines: view/format instructions), bytes.txt

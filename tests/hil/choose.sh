@@ -1,5 +1,6 @@
 # Sourced by run: the scenarios, and the choice of those that run.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 here=tests/hil
 scenarios=$here/scenarios
 all=() rare=() chosen=() left_out=()

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/readme/readme_site.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,8 +24,8 @@
 namespace orbwatch::tests {
 namespace {
 
-constexpr std::array kPages{"README.md", "platform/INSTALL.md", "platform/README.md", "app/cli/README.md",
-                            "app/cli/GUIDE.md"};
+constexpr std::array kPages{"README.md", "platform/INSTALL.md", "platform/README.md",
+                            "app/cli/README.md", "app/cli/GUIDE.md"};
 
 /// Commands that this test runs unchanged, and that must end with 0.
 constexpr std::array<std::string_view, 14> kRun{

@@ -1,6 +1,7 @@
 # Functions for checks in shell: for scenarios of tests/hil and for tests/platform/packages. The script
 # that sources this file defines report VERDICT NAME, which receives the verdicts.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 
 failed_checks=0
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """costs.py BUILD_FOLDER --since-file FILE [--build-cpu SECONDS] [--tests-cpu SECONDS] [--name NAME]:
 Markdown tables of the CPU seconds per target and per test program in a build folder.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """costs.py: its counts, and its results for incomplete logs."""
 import sys
 import tempfile

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """count_cases.py JUNIT: the cases that CTest's programs ran, from the file of its option --output-junit.
 
 Prints `N passed, N failed, N skipped`, then a line per failed case (`FAILED PROGRAM NAME`) and per reason

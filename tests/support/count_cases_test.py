@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """count_cases.py: the number of cases in a run of CTest."""
 import sys
 import unittest

@@ -1,6 +1,7 @@
 # shellcheck shell=bash
 # Sourced by the scripts that run tests: selects the stages that most changes do not affect.
 # ORBWATCH_SINCE: the commit to compare with instead of the last whole run's; nothing is drawn then.
+# SPDX-License-Identifier: Apache-2.0
 
 # Folders whose changes require the long gates of alignment.
 # shellcheck disable=SC2034

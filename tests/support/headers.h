@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Headers that most tests include, compiled once for all test programs. A test still includes those
 // that it uses.

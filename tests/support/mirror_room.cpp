@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/mirror_room.h"
 
 #include <algorithm>
@@ -397,7 +398,10 @@ TrueLimb limb_of(const Vec3& c, double focal_length, const cv::Size& size) {
 cv::Mat encode(const cv::Mat& light, const MirrorRoomSettings& s, std::mt19937_64& random) {
   cv::Mat seen;
   cv::GaussianBlur(light, seen, {}, std::max(s.blur, 0.3));
-  std::normal_distribution<float> noise(0, static_cast<float>(s.noise));
+  std::normal_distribution<float> normal;
+  const auto noise = [&](std::mt19937_64& from) {
+    return static_cast<float>(s.noise) * normal(from);
+  };
   if (s.thermal) {
     cv::Mat counts(seen.size(), CV_16UC1);
     for (int v = 0; v < seen.rows; ++v) {

@@ -1,6 +1,7 @@
 # Reads orbwatchd's registers at $modbus_address:$modbus_port with a third-party client; the command
 # prefix $modbus_from starts it elsewhere: in the network of a container.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 
 registers=$(dirname "${BASH_SOURCE[0]}")/../../app/ports/modbus/registers.csv
 modbus_from=()

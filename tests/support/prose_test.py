@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Figures of the prose: what counts, what does not, and that the project is below its limits."""
 import contextlib
 import io

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads passed and failed tests from the output of the programs that run tests."""
 
 import re

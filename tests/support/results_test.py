@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """results.py: every kind of output that it reads, complete and broken."""
 import sys
 import unittest

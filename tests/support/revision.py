@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The state of the checkout that a run tests."""
 
 import hashlib

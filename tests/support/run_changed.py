@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """run_changed.py [BASE]: runs the tests for all changes since BASE (HEAD: uncommitted changes), for
 `tests/run --changed`.
 

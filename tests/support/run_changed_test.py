@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """run_changed.py: the test programs that belong to a changed file."""
 import sys
 import unittest

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """runs.py [--folder FOLDER] keep [FILE]: stores a finished table of stages as COMMIT-UTC.md.
 runs.py [--folder FOLDER] compare A B: prints the rows that cost more in run B than in run A.
 runs.py [--folder FOLDER] list: prints the names of the runs, the oldest first.

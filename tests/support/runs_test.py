@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """runs.py: the runs it keeps and the rows it reports; revision.py: the state that names them."""
 import datetime
 import subprocess

@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC2154
 # Sourced by the scripts that run tests: timed stages, a table of them, and counts of results.
 # $stages is the table's Markdown file, created by stages_begin; $logs the folder of their output.
+# SPDX-License-Identifier: Apache-2.0
 
 stages_begin() {
   passed=0 failed=0 skipped=0

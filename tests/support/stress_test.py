@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tests/stress: the commands it runs, its failures, and the end of all its processes."""
 import importlib.machinery
 import importlib.util

@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC2154
 # Sourced by the scripts that run tests, after stages.sh: builds a preset and runs its tests, case by case.
+# SPDX-License-Identifier: Apache-2.0
 
 # CTest's slots, three per core; tests/CMakeLists.txt sets the number that a test uses.
 places=$((3 * $(nproc)))

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """unsteady.py [--folder FOLDER] record SUITE [FILE...]: keeps the results of tests, from FILEs or
 standard input.
 unsteady.py [--folder FOLDER] report: writes unsteady.md and prints it: the tests that both failed and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """unsteady.py: the results it keeps and the tests it reports as unsteady."""
 import datetime
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Logging in, against a running daemon.
 
 Folders: app/ports/web/access app/ports/web/http app/ports/web/page/files/system

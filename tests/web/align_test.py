@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Alignment on the page, against a running daemon whose rig file is wrong.
 
 Folders: app/ports/web/align app/ports/web/page/files/align app/alignment app/watch proc/align

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A daemon with the simulated machine and its page on a port of its own."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The files of the configuration, changed on the page of a running daemon.
 
 Folders: app/ports/web/configuration app/files app/ports/web/page/files/system

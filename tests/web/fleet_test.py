@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Two appliances of one DDS domain on the page of one of them.
 
 Folders: app/ports/web/fleet app/ports/dds/fleet app/ports/web/page/files/system

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Twelve views in one page for long: as many connections as for one, and no growth.
 
 Folders: app/ports/web/streams app/ports/web/page/files/appliance app/ports/web/page/files/live

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a picture shows where one points, beside the machine's truth; a view turned, mixed and coloured by hand.
 
 Folders: app/ports/web/pixels app/ports/web/views app/ports/web/streams

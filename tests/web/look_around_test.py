@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Views of the room that the browser draws, beside those of the appliance.
 
 Folders: app/ports/web/look_around app/ports/web/page/files/look

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A daemon with the simulated machine whose rig file is wrong: every ball 5 % too large and
 displaced, the thermal camera turned by 10 degrees. The true values are computed here by plain
 vectors, from the poses that the demo's rig file states."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A browser for each case, one running daemon for all cases of a class."""
 
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions of a user on the page, against a running daemon.
 
 Folders: app/ports/web/page/files app/ports/web/status app/ports/web/history

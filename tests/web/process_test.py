@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Limits and regions of the recipe, changed on the page of a running daemon.
 
 Folders: app/ports/web/process app/ports/web/page/files/process app/files

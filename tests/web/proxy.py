@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Debian's nginx as a reverse proxy that ends TLS and shows an appliance below a path, configured
 by the example of app/ports/web/PROXIES.md."""
 

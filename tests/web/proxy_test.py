@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A browser and a player behind nginx, which ends TLS and shows the page below a path.
 
 Folders: app/ports/web/PROXIES.md app/ports/web/access app/ports/web/http app/ports/web/page/files

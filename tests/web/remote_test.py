@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A browser on another computer: HTTPS, and the first password by the appliance's code.
 
 Folders: app/ports/web/tls app/ports/web/access app/certificates app/ports/web/http

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A daemon that replays rendered pictures of a machine, whose geometry is known, as its cameras."""
 
 import json

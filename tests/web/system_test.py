@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Log, interfaces and versions on the page of a running daemon.
 
 Folders: app/ports/web/log app/ports/web/interfaces app/ports/web/page/files/system

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/cli/dds/subscriber.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/cli/describe/describe_programs.h"
 
 #include "app/cli/options/declaration.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/cli/options/view_options.h"
 
 #include "app/pipeline/views/view_settings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/console/console_sink.h"
 
 #include <unistd.h>

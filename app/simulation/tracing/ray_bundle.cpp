@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/simulation/tracing/ray_bundle.h"
 
 namespace orbwatch::app::simulation {

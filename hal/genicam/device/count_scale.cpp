@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/genicam/device/count_scale.h"
 
 #include <algorithm>

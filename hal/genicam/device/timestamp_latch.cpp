@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/genicam/device/timestamp_latch.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/libcamera/format/libcamera_format.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/lines/gpio/gpio_lines.h"
 
 #include <fcntl.h>

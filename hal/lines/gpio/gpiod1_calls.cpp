@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libgpiod 1.6, the kernel's line interface v1: no debounce, no edge numbers.
 #include <gpiod.h>
 

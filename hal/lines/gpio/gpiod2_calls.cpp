@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libgpiod 2.x, the kernel's line interface v2.
 #include <gpiod.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/v4l2/device/thermal_advice.h"
 
 #include <algorithm>

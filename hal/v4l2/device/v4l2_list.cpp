@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/v4l2/device/v4l2_list.h"
 
 #include <algorithm>

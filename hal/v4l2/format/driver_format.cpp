@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/v4l2/format/driver_format.h"
 
 #include <linux/videodev2.h>

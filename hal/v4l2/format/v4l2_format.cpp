@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/v4l2/format/v4l2_format.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/align/condition/step_edge.h"
 
 #include <ceres/tiny_solver.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/align/drift/shift_search.h"
 
 #include <opencv2/imgproc.hpp>

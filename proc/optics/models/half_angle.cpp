@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Models whose rho is proportional to sin(phi/2), with everything far away: the paper's term rho =
 // sin(phi/2) / sin(alpha/4), and its limit for alpha = 360, the orthographic camera.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 /// The arithmetic of colour conversion for a run, in Q14 integers of 32 bits: `lanes_neon.h` where

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiles that lie on one smooth surface.
 
 #include <algorithm>

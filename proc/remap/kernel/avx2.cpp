@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for AVX2. One register holds 16 bit for each of a block's 16 pixels, row by row. A
 // channel's window of 8 rows of 8 bytes is four tables for vpshufb, two rows each, in both halves
 // of a register. Gather is not used: mitigations make it slow.

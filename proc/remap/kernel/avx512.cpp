@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for AVX-512 with VBMI. One register holds a block's 16 pixels, 32 bit each, pixel (i,
 // j) in lane 4 j + i: first its coordinate (u in the lower half, v in the upper), then the window's
 // four bytes that it lies between, then the sample. A window of one channel fits one register, so

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for NEON of aarch64. A window of 8x8 samples is four registers, so that one table
 // lookup fetches a sample for each of a block's 16 pixels. Samples that are interleaved in the
 // source are split into one such table each when they are loaded.

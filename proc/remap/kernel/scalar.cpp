@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The specification of the kernels: one pixel at a time, no assumption about the machine.
 
 #include <algorithm>

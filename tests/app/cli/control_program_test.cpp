@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Runs `orbwatch state` and `orbwatch command` like a user, against a running sink.
 #include <gmock/gmock.h>
 

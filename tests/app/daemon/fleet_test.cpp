@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Appliances on computers of their own at one switch, found by DDS discovery alone.
 #include <gmock/gmock.h>
 

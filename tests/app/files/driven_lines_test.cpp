@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/files/driven_lines.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/model/appliance_notice.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/model/picture_needs.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/app/simulation/camera_truth.h"
 
 #include <gtest/gtest.h>

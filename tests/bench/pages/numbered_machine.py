@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A daemon with one camera that paints each frame's number, and a view of it pixel by pixel."""
 
 import pathlib

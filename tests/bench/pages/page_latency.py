@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the latency from exposure to canvas, in headless Chromium: see README.md of tests/bench."""
 
 import argparse

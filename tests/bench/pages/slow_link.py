@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A link of a stated bandwidth to a port of this computer, whose ends stop reading when it is full."""
 
 import socket

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/hal/genicam/resending_proxy.h"
 
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/lines/frame_trigger.h"
 
 #include <gtest/gtest.h>

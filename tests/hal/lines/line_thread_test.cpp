@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/lines/line_thread.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/lines/simulated_lines.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/module/load_module.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/thread/priority_mutex.h"
 
 #include <gtest/gtest.h>

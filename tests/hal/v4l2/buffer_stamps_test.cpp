@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/v4l2/v4l2_stream.h"
 
 #include <gtest/gtest.h>

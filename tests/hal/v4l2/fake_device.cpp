@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/hal/v4l2/fake_device.h"
 
 #include <fcntl.h>

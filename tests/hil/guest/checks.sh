@@ -1,6 +1,7 @@
 # Commands for writing scenarios. Every check is a test of its own: passed or FAILED, one line of
 # /results/checks each; its output is in the log.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 
 # shellcheck source=../../support/checks.sh
 . /orbwatch/tests/support/checks.sh

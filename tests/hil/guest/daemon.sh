@@ -1,6 +1,7 @@
 # Functions of scenarios that run orbwatchd: it is configured by /tmp/site.toml and read by
 # independent clients.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 
 # Settings of one machine without a network: no multicast, all participants are local.
 export CYCLONEDDS_URI='<General><Interfaces><NetworkInterface name="lo" multicast="false"/>

@@ -1,6 +1,7 @@
 # Functions of scenarios with several parts: each part has the machine to itself, even after a
 # failed part.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 
 # part NAME: runs the checks of parts/NAME as a process of its own, then ends its remaining
 # processes, unloads the drivers that it loaded and empties /tmp. /results/parts gets a line:

@@ -1,5 +1,6 @@
 # Functions of scenarios with the installed service.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 
 export DEBIAN_FRONTEND=noninteractive
 # shellcheck disable=SC2034

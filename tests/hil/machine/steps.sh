@@ -1,6 +1,7 @@
 # Sourced by prepare and build: steps that make missing parts of the machines "$@" in the folder
 # $cache. Logs are in $results, times in $stages. Another run waits for the end of this one.
 # shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
 : "${cache:?}" "${results:?}" "${stages:?}"
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 project=$(cd "$here/../../.." && pwd)

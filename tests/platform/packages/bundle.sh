@@ -1,5 +1,6 @@
 # Sourced by run: one file contains everything that a minimal system needs.
 # shellcheck shell=bash disable=SC2154
+# SPDX-License-Identifier: Apache-2.0
 
 test_bundle() {
   local bundle=$folder/orbwatch-$suite-$architecture.tar

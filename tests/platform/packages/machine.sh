@@ -1,5 +1,6 @@
 # Sourced: functions to test a Debian system with systemd in a container.
 # shellcheck shell=bash disable=SC2154
+# SPDX-License-Identifier: Apache-2.0
 
 # shellcheck source=../../support/checks.sh
 . "$source/tests/support/checks.sh"

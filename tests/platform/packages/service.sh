@@ -1,6 +1,7 @@
 # Sourced by run: the installed package, its service, the effects of a second package, and their
 # removal. Variables that seem unused are read by machine.sh.
 # shellcheck shell=bash disable=SC2154,SC2034
+# SPDX-License-Identifier: Apache-2.0
 
 test_service() {
   check "a system boots" boot "$roots/ready-$suite-$architecture" || return

@@ -1,5 +1,6 @@
 # Sourced by run: state kept by an upgrade, and the refusal of a downgrade.
 # shellcheck shell=bash disable=SC2154
+# SPDX-License-Identifier: Apache-2.0
 
 test_upgrade() {
   check "a system boots" boot "$roots/ready-$suite-$architecture" || return

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/optics/ball_mesh.h"
 
 #include <gtest/gtest.h>

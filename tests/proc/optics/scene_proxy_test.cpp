@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/optics/scene_proxy.h"
 
 #include <gmock/gmock.h>

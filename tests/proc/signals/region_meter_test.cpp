@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/signals/region_meter.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads one view of orbwatch over DDS and prints a line per picture:
 //   image_subscriber [TOPIC [PICTURES]]
 // TOPIC: rt/orbwatch/selected/image_raw by default; PICTURES: how many to read, 0 (default): all.

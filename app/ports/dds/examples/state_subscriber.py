@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Reads the process state and the events of orbwatch as a ROS 2 node.
 
     python3 state_subscriber.py --ros-args -r state:=/orbwatch/process_state \\

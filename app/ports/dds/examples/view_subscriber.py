@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Reads a view of orbwatch and its calibration as a ROS 2 node.
 
     python3 view_subscriber.py --ros-args -r image:=/orbwatch/front/image_raw \\

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/participant/network_addresses.h"
 
 #include <arpa/inet.h>

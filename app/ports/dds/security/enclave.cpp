@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/security/enclave.h"
 
 #include "app/ports/dds/security/signed_document.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/status/event_message.h"
 
 #include "app/model/condition.h"

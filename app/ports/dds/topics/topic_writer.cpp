@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/topics/topic_writer.h"
 
 #include "app/ports/dds/ros/type_hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/modbus/map/block.h"
 #include "app/ports/modbus/map/rows.h"
 

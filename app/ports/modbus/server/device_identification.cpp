@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/modbus/server/device_identification.h"
 
 #include <array>

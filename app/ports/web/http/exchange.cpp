@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/http/exchange.h"
 
 #include <microhttpd.h>

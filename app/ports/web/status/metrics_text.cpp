@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/status/metrics_text.h"
 
 #include <prometheus/metric_family.h>

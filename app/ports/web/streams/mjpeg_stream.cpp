@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/streams/mjpeg_stream.h"
 
 #include "app/model/utc_text.h"

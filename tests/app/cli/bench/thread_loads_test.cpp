@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/cli/bench/thread_loads.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/cli/configure/await_trial.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transfers the process state from the sink to a reader, field by field over a real DDS network.
 #include "app/cli/dds/received_state.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Checks keys and documents with the program of OpenSSL.
 #include "app/cli/keys/keystore.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/pipeline/measurement/recipe_switch.h"
 
 #include <gtest/gtest.h>

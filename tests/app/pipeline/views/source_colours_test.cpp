@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/pipeline/views/source_colours.h"
 
 #include <gtest/gtest.h>

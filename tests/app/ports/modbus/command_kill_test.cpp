@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A PLC that writes its block in every cycle, and a server that is killed again and again.
 #include <gtest/gtest.h>
 

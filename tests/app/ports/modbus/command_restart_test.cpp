@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Commands of a PLC that writes its block cyclically, across restarts of the server.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

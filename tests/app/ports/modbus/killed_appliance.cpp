@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// killed_appliance FOLDER JOURNAL: a Modbus server with its record of commands in FOLDER. Prints
 /// its port. Appends the first argument of each command that it executes to JOURNAL. Ends by
 /// SIGTERM, unless killed before.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A Modbus TCP client by pymodbus, and the committed map. Runs with 3.0 (Debian 12) and 3.8 (13)."""
 
 import csv

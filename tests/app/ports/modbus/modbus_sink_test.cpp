@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/modbus/modbus_sink.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """rtu_client.py LINE UNIT: reads and writes as a PLC program would, with pymodbus.
 
 Prints one line per request; server/rtu_server_test.cpp expects them.

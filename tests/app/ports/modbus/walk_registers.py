@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """walk_registers.py PORT: reads every row of the committed map from a running server, and writes
 every row that can be written. Says what is wrong, one line each; exit code 1 then."""
 

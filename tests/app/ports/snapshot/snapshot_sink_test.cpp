@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/snapshot/snapshot_sink.h"
 
 #include <gtest/gtest.h>

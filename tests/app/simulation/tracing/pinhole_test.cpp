@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/simulation/tracing/pinhole.h"
 
 #include <gtest/gtest.h>

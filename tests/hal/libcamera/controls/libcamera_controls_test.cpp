@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/libcamera/controls/libcamera_controls.h"
 
 #include <gmock/gmock.h>

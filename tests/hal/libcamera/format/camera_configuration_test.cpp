@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/libcamera/format/camera_configuration.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/v4l2/format/pixel_coding.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/proc/align/condition/soiled_ball.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/align/condition/step_edge.h"
 
 #include <gtest/gtest.h>
@@ -15,11 +16,11 @@ const cv::Point kMiddle(15, 15);
 
 cv::Mat picture_of(const std::function<double(double, double)>& light, double noise) {
   std::mt19937 random(3);
-  std::normal_distribution<double> error(0, noise);
+  std::normal_distribution<double> error;
   cv::Mat picture(kSide, kSide, CV_32F);
   for (int v = 0; v < kSide; ++v) {
     for (int u = 0; u < kSide; ++u) {
-      picture.at<float>(v, u) = static_cast<float>(light(u - 15, v - 15) + error(random));
+      picture.at<float>(v, u) = static_cast<float>(light(u - 15, v - 15) + noise * error(random));
     }
   }
   return picture;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/proc/align/place/mirrored_rig.h"
 
 #include <Eigen/Dense>

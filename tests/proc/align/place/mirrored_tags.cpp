@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/proc/align/place/mirrored_tags.h"
 
 #include <algorithm>
@@ -145,7 +146,7 @@ cv::Mat picture_of_tags(const MirroredRig& rig, const RigCamera& camera,
   const std::vector<Sheet> sheets(tags.begin(), tags.end());
   const optics::Mat3& axes = camera.pose.rotation;
   cv::Mat picture(camera.height, camera.width, CV_8U);
-  std::normal_distribution<double> normal(0, noise);
+  std::normal_distribution<double> normal;
   for (int row = 0; row < picture.rows; ++row) {
     for (int column = 0; column < picture.cols; ++column) {
       double sum = 0;
@@ -157,7 +158,7 @@ cv::Mat picture_of_tags(const MirroredRig& rig, const RigCamera& camera,
         sum += brightness(rig, sheets, camera.pose.position, way);
       }
       picture.at<std::uint8_t>(row, column) =
-          cv::saturate_cast<std::uint8_t>(sum / 9 + normal(random));
+          cv::saturate_cast<std::uint8_t>(sum / 9 + noise * normal(random));
     }
   }
   return picture;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/remap/sampling/plane_sampler.h"
 
 #include <gtest/gtest.h>

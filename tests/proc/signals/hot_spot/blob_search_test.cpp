@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "proc/signals/hot_spot/blob_search.h"
 
 #include <gtest/gtest.h>

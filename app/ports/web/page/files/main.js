@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { Align } from "./align/align.js";
 import { describeFigures } from "./appliance/api.js";
 import { Stream } from "./appliance/stream.js";

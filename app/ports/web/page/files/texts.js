@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All texts of the page itself; names and descriptions of figures come from the appliance.
 export const texts = {
   pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System",

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commands over a real DDS network: their answers, and the number of executions.
 #include "app/ports/dds/commands/command_service.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/app/ports/dds/fastdds/json.h"
 
 #include <zlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/app/ports/dds/fastdds/raw_type.h"
 
 namespace orbwatch::tests::fastdds {

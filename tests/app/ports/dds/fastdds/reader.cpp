@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/app/ports/dds/fastdds/reader.h"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/fleet/appliance_message.h"
 
 #include <gmock/gmock.h>

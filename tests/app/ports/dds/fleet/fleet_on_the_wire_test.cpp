@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Appliances that receive each other's announcements over the network, and messages of strangers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

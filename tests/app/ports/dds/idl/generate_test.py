@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """app/ports/dds/idl/generate: what it reads and writes, and that its output is committed."""
 import importlib.machinery
 import importlib.util

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/participant/dds_log.h"
 
 #include <dds/dds.h>

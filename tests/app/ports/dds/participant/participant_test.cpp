@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/participant/participant.h"
 
 #include <gmock/gmock.h>

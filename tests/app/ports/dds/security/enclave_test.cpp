@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Errors for unusable files.
 #include "app/ports/dds/security/enclave.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A secured sink and various peers on one network. Each is a domain of this process, so that all
 /// samples cross UDP. The absence of samples for a peer is checked after other peers on the same
 /// network received some.

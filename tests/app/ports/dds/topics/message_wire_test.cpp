@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the bytes of the messages of ROS 2 with those required by its definitions.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Topics on the wire: names, types, QoS and the bytes of a sample.
 #include <gtest/gtest.h>
 

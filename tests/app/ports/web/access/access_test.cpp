@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/access/access.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/access/login_limits.h"
 
 #include <gtest/gtest.h>

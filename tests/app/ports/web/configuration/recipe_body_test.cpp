@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/configuration/recipe_body.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/streams/recent_views.h"
 
 #include <gtest/gtest.h>

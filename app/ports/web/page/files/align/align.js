@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ball in each camera's picture: found, corrected by hand, accepted.
 import { command } from "../appliance/api.js";
 import { directionOf, turnBetween } from "../elements/directions.js";

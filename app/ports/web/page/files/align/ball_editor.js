@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A camera's picture with the ball's outline over it as an ellipse, moved by its handles with pointer, touch
 // or keys, and the scene's edges by the alignment.
 import { element } from "../elements/elements.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A view from one camera alone, to judge its alignment: its direction, and its picture.
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";

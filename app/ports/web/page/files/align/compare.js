@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One view from two cameras, one over the other.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";

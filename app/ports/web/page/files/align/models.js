@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One view by the exact model of the ball beside the paper's, with a straight line.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A square view of the room from the ball's centre, with the projection of /api/v1/alignment/view.jpg.
 import { axesOf, dot, kDeg } from "../elements/directions.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Placement of a camera in the machine by known points in its picture.
 import { commandButton, element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";

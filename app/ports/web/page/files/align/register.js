@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Registration of a camera to the first one, and comparison of both pictures.
 import { anglesOf, directionOf } from "../elements/directions.js";
 import { commandButton, element } from "../elements/elements.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reloads data whenever its key has changed: one load at a time, and the last one wins.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";

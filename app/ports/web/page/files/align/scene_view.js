@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene's edges over a view of the room, in which straight lines of the machine are straight. Dragged
 // onto the machine's edges, they turn the camera.
 import { turnBetween } from "../elements/directions.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drift of an alignment, focus and cleanness of the ball, over time.
 import { History } from "../appliance/history.js";
 import { drawChart } from "../elements/chart.js";

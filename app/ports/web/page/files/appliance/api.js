@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Descriptions of the appliance's figures, and commands to it.
 
 // A figure's description also ends with its unit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits the body of /api/v1/live. Each message begins with a line of JSON, whose `bytes` is the number of
 // bytes that follow.
 const kNewline = 10;

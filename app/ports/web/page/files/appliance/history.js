@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The last ten minutes of one figure: its history from the appliance, and newer values.
 export const kHistoryMs = 600000;
 // A status has momentary values; the appliance also keeps the peaks between two of them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commands that follow a gesture: one at a time, and while it is executed only the newest one waits.
 import { command } from "./api.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decodes pictures as fast as the browser can: while it decodes one, only the newest waits.
 export class NewestPicture {
   #waiting = null;

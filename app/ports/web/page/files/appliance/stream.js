@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The single connection for status and pictures. It is reopened for ever, and closed while the page is
 // hidden.
 import { Framing } from "./framing.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The last ten minutes of one figure as a strip.
 import { kHistoryMs } from "../appliance/history.js";
 import { texts } from "../texts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions in the machine's frame, as x, y, z: yaw from +Y towards +X, pitch up, in degrees.
 export const kDeg = Math.PI / 180;
 

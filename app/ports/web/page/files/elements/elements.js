@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elements with properties and children; text is never read as HTML.
 export function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);

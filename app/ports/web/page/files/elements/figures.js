@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of figures that are updated in place.
 import { texts } from "../texts.js";
 import { element, setText, table } from "./elements.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes over a picture or a chart, and their dragging.
 const kClickPx = 3;  // on the screen
 const kSvg = "http://www.w3.org/2000/svg";

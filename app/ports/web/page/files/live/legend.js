@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meaning of the colours of one-channel cameras, changed by users who may command, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { element, setText } from "../elements/elements.js";

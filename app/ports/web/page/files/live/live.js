@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Views in tiles.
 import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";

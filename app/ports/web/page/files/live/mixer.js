@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shares of a view's cameras, changed by sliders, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { element } from "../elements/elements.js";

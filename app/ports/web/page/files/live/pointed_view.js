@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A view that the appliance points, turned by a user for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { followFingers, followKeys, followWheel, Gaze } from "../look/gaze.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of the displayed picture at the pointer: the mouse, a tap, or a crosshair moved by keys.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The displayed picture as a file, with its name and the legend of its colours.
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";

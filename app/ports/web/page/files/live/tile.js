@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One view: its picture with its age, values at the pointer, direction, weights and colours of its cameras.
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";

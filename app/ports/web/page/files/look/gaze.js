@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Viewing direction, turned by mouse, wheel, fingers and keys.
 import { anglesOf, axesOf, kDeg } from "../elements/directions.js";
 

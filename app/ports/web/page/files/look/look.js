@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The room as seen from the ball, turned by the user: drawn here, or by the appliance if the browser has no
 // WebGL.
 import { Framing } from "../appliance/framing.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Looking around without WebGL: the appliance points one of its views, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
 import { NewestPicture } from "../appliance/newest_picture.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws the room as seen from the ball's centre, by WebGL 2, from pictures of balls and the meshes
 // of /api/v1/sphere.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events of alarms, kept by the appliance.
 import { element, table } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits of alarms as lines over a chart, dragged or moved by keys, and typed below it.
 import { element } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Alarms, signals of the regions with their last ten minutes, their limits and outlines.
 import { command } from "../appliance/api.js";
 import { History } from "../appliance/history.js";

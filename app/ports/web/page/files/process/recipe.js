@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The selected recipe, and its unsent changes.
 import { texts } from "../texts.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The regions of the recipe over a live view: shown, and by integrators moved, resized, drawn and deleted,
 // corner by corner, with pointer, touch or keys.
 import { NewestPicture } from "../appliance/newest_picture.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Login and logout, and the first password.
 import { post } from "../appliance/api.js";
 import { element, field, setText } from "../elements/elements.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of the configuration, to be changed as texts.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All appliances of the DDS domain, updated while shown.
 import { post } from "../appliance/api.js";
 import { element, setText } from "../elements/elements.js";

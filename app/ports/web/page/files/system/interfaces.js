@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of the interfaces, updated while shown: registers, clients, topics.
 import { element, field, setText, table } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";

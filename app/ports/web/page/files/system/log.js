@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The newest lines of the appliance's log, updated while shown.
 import { element, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Users, tokens of programs and the audit, for administrators.
 import { answerTo, post } from "../appliance/api.js";
 import { element, field, setText, table } from "../elements/elements.js";

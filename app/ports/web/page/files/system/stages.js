@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Processor time of a frame set by stage, compared with its deadline.
 import { element, setText, table } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Complete status of the appliance, its cameras and views.
 import { element } from "../elements/elements.js";
 import { FigureTable, Keyed } from "../elements/figures.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // New texts of the configuration: checked, tried out, confirmed or reverted. The appliance restarts with them
 // meanwhile.
 import { answerTo } from "../appliance/api.js";
