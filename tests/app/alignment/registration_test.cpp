@@ -7,8 +7,10 @@
 #include <cmath>
 #include <vector>
 
+#include "proc/align/rotation_fit.h"
 #include "proc/optics/rotation.h"
 #include "tests/app/alignment/rig_with_pose.h"
+#include "tests/proc/align/register/camera_pair.h"
 
 namespace orbwatch::app {
 namespace {
@@ -112,6 +114,30 @@ TEST_F(RegisteredAlignment, KeepsAPoseThatTheRigStates) {
   ASSERT_TRUE(before);
   EXPECT_GT(std::hypot(before->u - by_pose->u, before->v - by_pose->v), 1)
       << "the test would see that it was not turned";
+}
+
+TEST(RegisterCamera, ProposesThePoseOfACameraThatHasOne) {
+  const auto pair = orbwatch::tests::camera_pair(501, false);
+  const auto& truth = pair.room.second;
+  // As if it stood elsewhere: turned about the ball, in the origin.
+  const optics::Mat3 turn = align::rotation_about({0.3, -0.2, 0.5});
+  optics::RigCamera stated = pair.sought;
+  stated.outline.reset();
+  stated.pose = optics::Pose{truth.axes * transposed(turn), turn * truth.position};
+  const align::SimultaneousPictures pictures{{pair.reference().picture}, {pair.unknown().picture}};
+  const auto found =
+      register_camera(pair.rig, pair.known, stated, pictures, {}, [](const auto&) {});
+  ASSERT_TRUE(found) << found.error().message;
+  const AlignmentProposal& proposal = found->proposal;
+  EXPECT_EQ(proposal.alignment.camera, "B");
+  ASSERT_TRUE(proposal.alignment.pose);
+  EXPECT_FALSE(proposal.alignment.outline || proposal.alignment.registration);
+  const optics::Pose& pose = *proposal.alignment.pose;
+  EXPECT_LT(optics::degrees(align::angle_between(pose.rotation, truth.axes)), 0.2);
+  EXPECT_LT(norm(pose.position - truth.position), 0.005 * norm(truth.position));
+  EXPECT_EQ(proposal.method, "register by features");
+  EXPECT_TRUE(proposal.quality.starts_with("residual ")) << proposal.quality;
+  EXPECT_LT(proposal.direction_sigma, 1);
 }
 
 }  // namespace
