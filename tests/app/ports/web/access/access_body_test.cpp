@@ -27,7 +27,7 @@ TEST(AccessBody, WhatIsWrongIsRefusedWithoutAValue) {
     const auto members = parse_members(kAllowed, body);
     ASSERT_FALSE(members) << body;
     EXPECT_THAT(members.error().message,
-                HasSubstr(R"(it must be {"user": "...", "password": "..." (optional)})"));
+                HasSubstr(R"(must be {"user": "...", "password": "..." (optional)})"));
     EXPECT_EQ(members.error().message.find("SECRET"), std::string::npos) << body;
   }
 }
