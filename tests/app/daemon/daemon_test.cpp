@@ -381,8 +381,8 @@ TEST_F(Daemon, ChecksAFileWithoutRunning) {
       folder.path() / "said");
   EXPECT_EQ(program.wait(), 0) << program.output();
   EXPECT_EQ(program.output(),
-            "orbwatch: takes commands over Modbus from this host only; over DDS from everybody in "
-            "domain " +
+            "orbwatch: takes commands over Modbus from this host only; over DDS from every "
+            "participant of domain " +
                 std::to_string(domain) + "\n");
 }
 

@@ -223,8 +223,10 @@ TEST(DdsSinkStartTest, NamesAreChecked) {
   };
   EXPECT_THAT(refusal("orb watch", {"front"}), testing::HasSubstr("prefix \"orb watch\""));
   EXPECT_THAT(refusal("orbwatch", {"front", "no-dash"}), testing::HasSubstr("\"no-dash\""));
-  EXPECT_THAT(refusal("orbwatch", {"front", "front"}), testing::HasSubstr("\"front\" is taken"));
-  EXPECT_THAT(refusal("orbwatch", {"selected"}), testing::HasSubstr("\"selected\" is taken"));
+  EXPECT_THAT(refusal("orbwatch", {"front", "front"}),
+              testing::HasSubstr("\"front\" is already used"));
+  EXPECT_THAT(refusal("orbwatch", {"selected"}),
+              testing::HasSubstr("\"selected\" is already used"));
 }
 
 }  // namespace

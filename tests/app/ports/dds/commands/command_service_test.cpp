@@ -386,7 +386,7 @@ TEST(CommandServiceOffTest, SecurityAsksForThemToo) {
   EXPECT_FALSE(takes_commands(dds));
   EXPECT_EQ(commanders(dds), "");
   dds.commands = true;
-  EXPECT_EQ(commanders(dds), "over DDS from everybody in domain 0");
+  EXPECT_EQ(commanders(dds), "over DDS from every participant of domain 0");
   dds.commands.reset();
   dds.security.emplace();
   EXPECT_TRUE(takes_commands(dds));

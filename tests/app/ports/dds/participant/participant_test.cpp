@@ -109,7 +109,8 @@ TEST(ParticipantTest, SamplesThatFillTheMemoryAreDropped) {
 TEST(ParticipantTest, AProfileWhosePathCannotBeToldIsNamed) {
   const auto participant = Participant::join(kDomain, std::nullopt, {}, "/etc/a,b.xml");
   ASSERT_FALSE(participant);
-  EXPECT_THAT(participant.error().message, testing::HasSubstr("/etc/a,b.xml: has a comma"));
+  EXPECT_THAT(participant.error().message,
+              testing::HasSubstr("/etc/a,b.xml: must not have a comma"));
 }
 
 TEST(ParticipantTest, AProfileThatIsMissingIsNamed) {

@@ -26,9 +26,9 @@ TEST(TopicNamesTest, PartsFollowTheRulesOfRos2) {
   for (const auto* bad : {"", "9a", "front-left", "a b", "a/b", "\xC3\xA4", "a*"}) {
     EXPECT_FALSE(check_topic_part(bad, "view")) << bad;
   }
-  EXPECT_EQ(
-      check_topic_part("front-left", "view name").error().message,
-      "DDS: view name \"front-left\" is no ROS 2 name: letters, digits and '_', no digit first");
+  EXPECT_EQ(check_topic_part("front-left", "view name").error().message,
+            "DDS: view name \"front-left\" is not a ROS 2 name; it must be letters, digits and "
+            "'_', without a digit first");
 }
 
 TEST(TopicNamesTest, PathsHaveSoundParts) {
