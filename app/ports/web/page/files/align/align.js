@@ -11,7 +11,7 @@ import { Register } from "./register.js";
 import { SceneView } from "./scene_view.js";
 import { Watched } from "./watched.js";
 
-const kPauseMs = 300;  // between two looks at the appliance
+const kPauseMs = 300;  // period of requests to the appliance
 const kReady = 2, kWorking = 1;
 const kNudgeDeg = 0.05;
 

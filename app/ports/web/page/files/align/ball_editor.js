@@ -8,7 +8,7 @@ import { texts } from "../texts.js";
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
-const kHandlePx = 11, kMarkPx = 6;  // on the screen
+const kHandlePx = 11, kMarkPx = 6;  // screen px
 
 // Unit vectors along the axes.
 function axes({ angle }) {
@@ -40,10 +40,10 @@ function pulled(outline, handle, [u, v]) {
 }
 
 export class BallEditor {
-  #outline = null;   // as it is shown
-  #changed = new Set();  // commands that are to be given
-  #edits = 0;        // counts changes
-  #isHeld = false;   // somebody changes it: what the appliance says waits
+  #outline = null;   // displayed outline
+  #changed = new Set();  // commands to send
+  #edits = 0;        // number of changes
+  #isHeld = false;   // being changed: states of the appliance wait
   #settle = 0;
   #handles = {};
 

@@ -4,8 +4,8 @@ import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { kSide, viewCanvas } from "./camera_view.js";
 
-const kBlinkMs = 500;  // two changes a second disturb nobody
-const kSquares = 8;    // of the checkerboard, in each direction
+const kBlinkMs = 500;  // two changes per second are not disturbing
+const kSquares = 8;    // squares of the checkerboard in each direction
 
 const kWays = {
   blink: (brush, [a, b], { isSecond }) => brush.drawImage(isSecond ? b : a, 0, 0),

@@ -8,7 +8,7 @@ const kModels = ["exact", "paper"];
 
 export class Models {
   #camera = null;
-  #pictures = new Map();  // by model
+  #pictures = new Map();  // pictures by model
   #isLoading = false;
 
   constructor() {

@@ -12,8 +12,8 @@ import { Reload } from "./reload.js";
 export class SceneView {
   #camera = null;
   #picture = new Reload(() => this.#load());
-  #perspective = null;  // of the picture that is shown
-  #isHeld = false;      // somebody drags an edge: all stays as it is
+  #perspective = null;  // projection of the displayed picture
+  #isHeld = false;      // an edge is being dragged: the view is not updated
 
   // `give(command, values)`: see Align.
   constructor(give) {

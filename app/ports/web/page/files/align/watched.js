@@ -10,8 +10,8 @@ import { texts } from "../texts.js";
 const kFigures = { drift_error: "alignment", blur: "focus", contamination: "cleanliness" };
 
 export class Watched {
-  #camera = "";  // that is shown
-  #histories = {};  // its, by figure
+  #camera = "";  // name of the displayed camera
+  #histories = {};  // histories of the camera, by figure
 
   // `descriptions` of a camera's figures.
   constructor(descriptions) {

@@ -4,8 +4,8 @@ import { kHistoryMs } from "../appliance/history.js";
 import { texts } from "../texts.js";
 import { figureText } from "./figures.js";
 
-const kLinePx = 16;  // of text
-const kGapMs = 2000;  // nothing for so long is a gap
+const kLinePx = 16;  // height of a text line
+const kGapMs = 2000;  // silence that counts as a gap
 
 // Vertical positions of values in a chart: shares of its height from the top, with room for a line of text
 // above and below.

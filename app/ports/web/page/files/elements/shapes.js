@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes over a picture or a chart, and their dragging.
-const kClickPx = 3;  // on the screen
+const kClickPx = 3;  // screen px
 const kSvg = "http://www.w3.org/2000/svg";
 
 export const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };

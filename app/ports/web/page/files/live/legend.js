@@ -4,11 +4,11 @@ import { NewestCommand } from "../appliance/newest_command.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
-const kSettleMs = 1000; // as for a view that is pointed
+const kSettleMs = 1000; // same as for a pointed view
 
 // Legend of one camera of a view.
 class SourceLegend {
-  #changed = -Infinity; // as of performance.now()
+  #changed = -Infinity; // time of performance.now()
 
   // `change(command, what)` is called for a choice; null: not permitted.
   constructor({ camera, unit }, maps, change) {

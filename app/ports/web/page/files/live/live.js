@@ -6,9 +6,9 @@ import { texts } from "../texts.js";
 import { Tile } from "./tile.js";
 
 export class Live {
-  #chosen = null; // by name, null before the first status
+  #chosen = null; // names; null before the first status
   #faults = "";
-  #isStale = true; // what is known of the views may be of before a restart
+  #isStale = true; // data of the views may be older than a restart
 
   // `mayCommand`: the user may turn, mix and colour views.
   constructor(root, onChoice, mayCommand) {
@@ -51,7 +51,7 @@ export class Live {
       }
     } catch (error) {
       console.info(`views: ${error.message}`);
-      this.#isStale = true; // with the next status
+      this.#isStale = true; // retried with the next status
     }
   }
 

@@ -4,12 +4,12 @@ import { NewestCommand } from "../appliance/newest_command.js";
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
-const kSettleMs = 1000; // as for a view that is pointed
-const kLeast = 0.001, kMost = 1000; // of the command
+const kSettleMs = 1000; // same as for a pointed view
+const kLeast = 0.001, kMost = 1000; // range of the command
 
 export class Mixer {
   #weights = [];
-  #mixed = -Infinity; // as of performance.now()
+  #mixed = -Infinity; // time of performance.now()
 
   // A view from /api/v1/views; `say(what)`: reason of a refusal; empty: accepted. There is a slider for each
   // camera besides the first one.

@@ -9,7 +9,7 @@ const kSettleMs = 1000;
 
 export class PointedView {
   #view = null;
-  #turned = -Infinity; // as of performance.now()
+  #turned = -Infinity; // time of performance.now()
 
   // `say(what)`: reason of a refusal; empty: accepted.
   constructor(canvas, mayCommand, say) {

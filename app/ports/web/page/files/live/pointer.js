@@ -3,7 +3,7 @@
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
-const kSteps = 50; // of the crosshair, across the picture
+const kSteps = 50; // steps of the crosshair across the picture
 const kMoves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
@@ -12,10 +12,10 @@ export class Pointer {
   #place = null; // {u, v}, whole pixels of the picture
   #followsMouse = false;
   #isAsking = false;
-  #isNews = false; // a place or a picture that was not asked for yet
-  #asked = 0; // number of the picture that was asked for last
-  #kept = 0; // number of the first picture that the appliance has kept; 0: of none
-  #willSay = false; // aloud
+  #isNews = false; // a position or a picture without a request yet
+  #asked = 0; // number of the picture requested last
+  #kept = 0; // number of the first picture kept by the appliance; 0: none
+  #willSay = false; // announce the next answer to screen readers
 
   // `canvas` has the number of its picture as data.
   constructor(view, canvas) {

@@ -12,7 +12,7 @@ import { saveSnapshot } from "./snapshot.js";
 const kStaleMs = 2000;
 
 export class Tile {
-  #latest = null; // {age_ms, received} of the picture that is shown
+  #latest = null; // {age_ms, received} of the displayed picture
   #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
 
   constructor(name, mayCommand) {

@@ -3,17 +3,17 @@
 import { anglesOf, axesOf, kDeg } from "../elements/directions.js";
 
 const kNarrowest = 5, kWidest = 140; // degrees
-const kKeyShare = 0.05; // of the field of view per key
-const kZoom = 1.1; // per key
-const kWheelZoom = 0.0015; // per pixel that the wheel says
+const kKeyShare = 0.05; // share of the field of view per key
+const kZoom = 1.1; // zoom factor per key
+const kWheelZoom = 0.0015; // exponent per pixel of the wheel
 
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
 
 export class Gaze {
-  yaw = 0; // degrees, as everywhere in orbwatch: from +Y towards +X
+  yaw = 0; // degrees, from +Y towards +X
   pitch = 0;
   fov = 90; // horizontal
-  roll = 0; // of the picture that is turned
+  roll = 0; // roll of the displayed picture
 
   #home = null;
 
@@ -70,7 +70,7 @@ export function followGestures(canvas, gaze) {
 
 // Mouse, pen and fingers.
 export function followFingers(canvas, gaze) {
-  const fingers = new Map(); // by pointer
+  const fingers = new Map(); // positions by pointer
   const spread = () => {
     const [a, b] = [...fingers.values()];
     return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;

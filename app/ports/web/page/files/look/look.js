@@ -42,11 +42,11 @@ function option(name) {
 }
 
 export class Look {
-  #isStale = true; // what the appliance said may be of before its restart
+  #isStale = true; // data may be older than a restart of the appliance
   #isLoading = false;
   #willDraw = false;
   #meshes = new Meshes();
-  #pictures = new Map(); // by view
+  #pictures = new Map(); // pictures by view
   #latest = null; // {age_ms, received}
   #faults = "";
 
@@ -151,7 +151,7 @@ export class Look {
       else await this.#loadSpheres(spheres);
     } catch (error) {
       console.info(`look around: ${error.message}`);
-      this.#isStale = true; // with the next status
+      this.#isStale = true; // retried with the next status
     }
     this.#isLoading = false;
   }

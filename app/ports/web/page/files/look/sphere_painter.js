@@ -8,7 +8,7 @@ const kLineColour = [1, 0.86, 0];
 const kLineOffsets = [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]; // px
 
 const kVertex = `#version 300 es
-uniform mat3 axes;  // columns of right, up, forward
+uniform mat3 axes;  // columns: right, up, forward
 uniform vec2 scale, shift;
 uniform float nearer;
 layout(location = 0) in vec3 position;

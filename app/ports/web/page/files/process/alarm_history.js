@@ -5,7 +5,7 @@ import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
 export class AlarmHistory {
-  #count = null;  // of all events, when they were asked for
+  #count = null;  // number of all events at the last request
 
   constructor() {
     this.none = element("p", {}, texts.noAlarmEvents);

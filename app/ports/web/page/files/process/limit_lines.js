@@ -6,7 +6,7 @@ import { drawn, followDrag, kKeys, place } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 
 export const kLimits = ["low_alarm", "low_warning", "high_warning", "high_alarm"];
-const kSteps = 200;  // of a key or a dragged pixel, in a chart's height
+const kSteps = 200;  // steps of a key or a dragged pixel per height of the chart
 const kLargeStep = 10;
 
 // A round step for a range: 1, 2 or 5 times a power of ten.
@@ -18,8 +18,8 @@ function stepOf(span) {
 const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(10));
 
 export class LimitLines {
-  #lines = new Map();  // by alarm and limit
-  #held = null;        // the scale while one is dragged
+  #lines = new Map();  // lines by alarm and limit
+  #held = null;        // scale during a drag
 
   constructor(recipe, mayChange) {
     this.recipe = recipe;

@@ -62,7 +62,7 @@ class Alarms {
 }
 
 class Region {
-  #history = null;  // of the signal that is chosen
+  #history = null;  // history of the selected signal
   #signals = new Set();
 
   constructor(name, descriptions, recipe, mayChange) {

@@ -12,11 +12,11 @@ async function answered(path) {
 }
 
 export class Recipe extends EventTarget {
-  #loaded = "";  // which one
+  #loaded = "";  // number of the loaded recipe
   #isLoading = false;
-  #limits = new Map();  // by alarm and limit: what is to be sent
-  #regions = new Map(); // by name
-  #removed = new Set(); // names of regions
+  #limits = new Map();  // unsent limits by alarm and limit
+  #regions = new Map(); // regions by name
+  #removed = new Set(); // names of removed regions
   stated = kNothing;
 
   // Loads it again if another one runs.
@@ -29,7 +29,7 @@ export class Recipe extends EventTarget {
       this.#loaded = running;
       this.#changed();
     } catch (error) {
-      console.info(`recipe: ${error.message}`); // with the next status again
+      console.info(`recipe: ${error.message}`); // retried with the next status
     }
     this.#isLoading = false;
   }
@@ -65,7 +65,7 @@ export class Recipe extends EventTarget {
   async setRegion(region, pixels) {
     const query = new URLSearchParams({ number: this.stated.number, view: region.view, pixels: pixels.flat() });
     const { corners, lines } = await answered(`api/v1/recipe/polygon?${query}`);
-    if (this.#removed.has(region.name)) return; // meanwhile
+    if (this.#removed.has(region.name)) return; // removed meanwhile
     const keptAt = (pixel) => region.corners.find(({ pixel: before }) =>
       before?.every((part, k) => part === pixel[k]))?.at;
     const hasSurface = corners.every(({ point }) => point !== null);

@@ -7,25 +7,25 @@ import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "../element
 import { texts } from "../texts.js";
 
 const kStepPx = 1, kLargeStepPx = 10;
-const kGrowth = 1.05;   // of a key
-const kSettleMs = 250;  // keys that are held down become one change
-const kHandlePx = 11;   // on the screen
-const kMiddlePx = 8;    // of an edge, where a corner is added
-const kShortEdgePx = 44;  // has no room for one
+const kGrowth = 1.05;   // scale factor per key
+const kSettleMs = 250;  // repeated keys within this time become one change
+const kHandlePx = 11;   // screen px
+const kMiddlePx = 8;    // handle in the middle of an edge, which adds a corner
+const kShortEdgePx = 44;  // a shorter edge has no middle handle
 const kLeastPx = 4;     // a smaller rectangle is a click
-const kNewShare = 4;    // a new region is that part of the view
+const kNewShare = 4;    // the view has this many times the size of a new region
 
 const rectangle = ([x, y], [u, v]) => [[x, y], [u, y], [u, v], [x, v]];
 const middleOf = ([x, y], [u, v]) => [(x + u) / 2, (y + v) / 2];
 const option = (name) => element("option", { value: name }, name);
 
 export class RegionEditor {
-  #pixels = null;  // of a region's corners while somebody changes them
-  #changing = null; // which one
+  #pixels = null;  // corners of the region being changed
+  #changing = null; // name of the region being changed
   #settle = 0;
-  #handles = [];   // of the corners
-  #middles = [];   // of the edges, each behind its corner
-  #corner = 0;     // that was touched last
+  #handles = [];   // handles of the corners
+  #middles = [];   // handles of the edges, each after its corner
+  #corner = 0;     // index of the last touched corner
   #pictures = new NewestPicture((picture, { head }) => {
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = head.number;
@@ -304,7 +304,7 @@ export class RegionEditor {
     const pixels = this.#pixels;
     if (!pixels) return;
     await this.#give(this.#changing, pixels);
-    if (this.#pixels === pixels) this.#forget(); // nobody went on meanwhile
+    if (this.#pixels === pixels) this.#forget(); // unchanged meanwhile
   }
 
   // Returns whether the appliance has coordinates for them.

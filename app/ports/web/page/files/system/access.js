@@ -8,7 +8,7 @@ const kRetryMs = 500;
 const kFirstUser = "admin";
 const account = document.getElementById("account");
 const section = document.getElementById("access");
-let isSending = false;  // a form: until it is answered the page does not begin anew
+let isSending = false;  // a form is being sent: the page is not reloaded until the answer
 
 export async function session() {
   const answer = await fetch("api/v1/session");

@@ -4,7 +4,7 @@ import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { Trial } from "./trial.js";
 
-const kKeptMs = 1000;  // a download's text, for the browser to take it
+const kKeptMs = 1000;  // lifetime of a download's text, for the browser to read it
 
 // Text fields support only \n as line end.
 const plain = (text) => text.replaceAll("\r\n", "\n");
@@ -14,8 +14,8 @@ class FileEditor {
   constructor({ name, text, may_change: mayChange, checksum }) {
     this.name = name;
     this.onDisk = text;
-    this.checksum = checksum;  // of what is on the disk
-    this.basis = checksum;     // of what the text here was made of
+    this.checksum = checksum;  // checksum of the file on the disk
+    this.basis = checksum;     // checksum of the text on which this one is based
     this.area = element("textarea", { rows: 16, spellcheck: false, readOnly: !mayChange, wrap: "off" });
     this.area.setAttribute("aria-label", name);
     this.mark = element("span", {});

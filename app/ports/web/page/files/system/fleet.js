@@ -5,11 +5,11 @@ import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kAgainMs = 1000;
-const kWrongFrom = 1;  // severity: a warning
+const kWrongFrom = 1;  // least severity that is highlighted: warning
 
 // One appliance, updated in place.
 class Card {
-  #shown = 0;  // number of the picture
+  #shown = 0;  // number of the displayed picture
 
   constructor() {
     this.picture = element("img", { alt: "", width: 160, hidden: true });
@@ -51,7 +51,7 @@ class Card {
 }
 
 export class Fleet {
-  #cards = new Map();  // by id
+  #cards = new Map();  // cards by id
   #again = 0;
 
   constructor(root, mayForget) {

@@ -10,7 +10,7 @@ const kLevels = ["info", "warning", "error"];
 export class Log {
   #newest = 0;
   #again = 0;
-  #asked = 0;  // counts: what was asked with another level is not shown
+  #asked = 0;  // request number, so that answers for another level are ignored
 
   constructor(root) {
     this.said = element("p", { role: "status", className: "wrong" });

@@ -74,7 +74,7 @@ export class Trial {
     setText(this.difference, answer.difference ?? "");
     if (!answer.refused) return answer;
     this.say(texts.refused(answer.refused), true);
-    await this.refresh();  // a file may have been changed by somebody else
+    await this.refresh();  // another user may have changed a file
     return null;
   }
 
