@@ -64,7 +64,7 @@ class ManualWriter {
   void one_of(const char* key, std::variant<Alternatives...>&, const char* text) {
     constexpr std::array<std::string_view, sizeof...(Alternatives)> kNames{Alternatives::kName...};
     row(key, allowed(kNames), "required", text);
-    const std::string purpose = std::string("For ") + key + " ";
+    const std::string purpose = std::string("Settings for ") + key + " ";
     const auto alternative = [&](const std::string& name, auto value) {
       nested_ += section(name, value, "[" + full(name) + "]", purpose + name);
     };
