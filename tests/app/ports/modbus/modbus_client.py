@@ -27,7 +27,7 @@ def checked(answer):
 
 
 class Client:
-    """Every read gives a list of words or bits. `unit` goes into each request."""
+    """Reads return a list of words or bits. `unit` is the unit identifier of each request."""
 
     def __init__(self, port, unit=1):
         self.port, self.unit = port, unit
@@ -36,7 +36,7 @@ class Client:
     def connect(self):
         self.modbus = ModbusTcpClient("127.0.0.1", port=self.port, timeout=30)
         if not self.modbus.connect():
-            raise ConnectionError(f"nobody answers on port {self.port}")
+            raise ConnectionError(f"no answer on port {self.port}")
 
     def reconnect(self):
         self.modbus.close()
@@ -66,7 +66,7 @@ class Client:
         return list(checked(answer).registers)
 
     def lose_answer(self, write_address, words, read_address, count):
-        """Sends function code 23 and hangs up at once, as a PLC whose cable is pulled."""
+        """Sends function code 23 and disconnects at once, like a PLC whose cable is pulled."""
         pdu = struct.pack(">BHHHHB", 23, read_address, count, write_address, len(words),
                           2 * len(words)) + struct.pack(f">{len(words)}H", *words)
         header = struct.pack(">HHHB", 1, 0, len(pdu) + 1, self.unit)
@@ -75,7 +75,7 @@ class Client:
 
 
 def words_of(number):
-    """32 bit, high word first."""
+    """32-bit value, high word first."""
     return [number >> 16 & 0xFFFF, number & 0xFFFF]
 
 
@@ -89,7 +89,7 @@ def number_in(words, kind):
 
 
 def register_map():
-    """The rows of the committed table, numbers as numbers."""
+    """The rows of the committed table, with numbers converted."""
     with open(SOURCE / "app/ports/modbus/registers.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     for row in rows:

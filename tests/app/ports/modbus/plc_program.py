@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: Apache-2.0
-"""plc_program.py PORT PARTS SEED [--slow | --overrun | --any]: what a PLC does by the manual.
+"""plc_program.py PORT PARTS SEED [--slow | --overrun | --any]: a PLC program written by the manual.
 
 It triggers, reads the result, uses it once and acknowledges it, while connections are lost and
 writes come twice. Every register of a result must belong to the same part. --slow: up to 8 results
@@ -44,7 +43,7 @@ class Plc:
         self.parts, self.lost, self.again, self.triggered = 0, 0, 0, 0
 
     def trigger(self):
-        """By the handshake of commands: twice the same write is one command."""
+        """Gives a command by the handshake: a repeated write is one command."""
         self.sequence = (self.sequence + 1) & 0xFFFF
         words = [TRIGGER, self.sequence]
         address = self.map.address["command"]
@@ -59,7 +58,7 @@ class Plc:
         self.triggered += 1
 
     def wait_for(self, number):
-        """Until the newest result is this one: what was triggered takes its time."""
+        """Waits until this is the newest result."""
         address = self.map.address["system_result"]
         while number_in(self.client.read("input", address, 2), "UDINT") != number:
             pass
@@ -105,8 +104,7 @@ class Plc:
         self.parts += 1
 
     def check(self, result, region, number=None):
-        """The stand-in gives every figure of result n the code that belongs to n and to the
-        region."""
+        """Expects the code that the simulated pipeline computes from n and the region."""
         n = result["result"]
         if number is not None and n != number:
             raise AssertionError(f"region {region} shows result {n} beside {number}")

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: Apache-2.0
-"""rtu_client.py LINE UNIT: reads and writes as a PLC program would, with pymodbus.
+"""rtu_client.py LINE UNIT: reads and writes like a PLC program, with pymodbus.
 
 Prints one line per request; server/rtu_server_test.cpp expects them.
 """
@@ -12,7 +11,7 @@ from pymodbus.mei_message import ReadDeviceInformationRequest
 
 from modbus_client import register_map
 
-# From the first argument to the sequence, 41.
+# Registers from the first argument to the sequence 41.
 SELECT_VIEW_2 = [0, 2] + 9 * [0] + [1, 41]
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """walk_registers.py PORT: reads every row of the committed map from a running server, and writes
-every row that can be written. Says what is wrong, one line each; exit code 1 then."""
+every writable row. Prints each fault on one line; exit code 1 if there is any."""
 
 import sys
 
@@ -14,7 +14,7 @@ ONE_REQUEST = {"coil": 2000, "discrete": 2000, "holding": 125, "input": 125}
 
 
 def read(client, row):
-    """The words or bits of a row; one that is longer than a request in several."""
+    """The words or bits of a row, read by several requests if it is longer than one."""
     values, step = [], ONE_REQUEST[row["table"]]
     for place in range(0, row["count"], step):
         values += client.read(row["table"], row["address"] + place, min(step, row["count"] - place))
@@ -29,7 +29,7 @@ def wrong_value(row, values):
     number = number_in(values, row["type"])
     if row["type"] == "DINT" and number == NOT_VALID:
         return None
-    # A register's steps are wider than a double's.
+    # A register has a coarser resolution than a double.
     low, high = (row[end] / row["scale"] for end in ("min", "max"))
     if not low - 0.5 <= number <= high + 0.5:
         return f"reads {number}, which is not in {low} to {high}"
@@ -37,7 +37,7 @@ def wrong_value(row, values):
 
 
 def mirror_is_between(client, row, original):
-    """Both are read of a running machine: what stands still is equal, what counts lies between."""
+    """Compares reads of a running machine: constants are equal, counters lie in between."""
     for _ in range(50):
         before, mirror, after = read(client, original), read(client, row), read(client, original)
         if before == after:
@@ -49,7 +49,7 @@ def mirror_is_between(client, row, original):
 
 
 def write_all(client, rows):
-    """Every writable row takes what it reads; the sequence stays, so no command is given."""
+    """Writes each writable row with its present value; the sequence stays, so no command is given."""
     for row in rows:
         if row["access"] != "rw":
             continue

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: Apache-2.0
-"""app/ports/dds/idl/generate: what it reads and writes, and that its output is committed."""
+"""Tests app/ports/dds/idl/generate: its input and output, and that the output is committed."""
 import importlib.machinery
 import importlib.util
 import re
@@ -117,7 +116,7 @@ class MsgTest(unittest.TestCase):
 
 
 def msg_fields(path):
-    """Types and names, as ROS 2 reads them."""
+    """Types and names in the form of ROS 2."""
     lines = [line.partition("#")[0].split() for line in path.read_text().splitlines()]
     return [tuple(words) for words in lines if words]
 
@@ -138,7 +137,7 @@ class CommittedTest(unittest.TestCase):
                                     f"{part}/{name} is stale: run app/ports/dds/idl/generate")
 
     def test_messages_are_the_types_that_idlc_made(self):
-        # What idlc leaves out of a type is missing here.
+        # Parts of a type that idlc omits are missing here.
         c_types = {"bool": "bool", "float64": "double", "string": "char *", "uint8": "uint8_t",
                    "uint16": "uint16_t", "uint32": "uint32_t", "uint64": "uint64_t",
                    "float64[]": "dds_sequence_double", "uint8[]": "dds_sequence_uint8",
