@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """plc_program.py PORT PARTS SEED [--slow | --overrun | --any]: a PLC program written by the manual.
 
 It triggers, reads the result, uses it once and acknowledges it, while connections are lost and

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """rtu_client.py LINE UNIT: reads and writes like a PLC program, with pymodbus.
 
 Prints one line per request; server/rtu_server_test.cpp expects them.

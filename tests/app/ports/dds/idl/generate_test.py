@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests app/ports/dds/idl/generate: its input and output, and that the output is committed."""
 import importlib.machinery
 import importlib.util
