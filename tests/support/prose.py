@@ -57,6 +57,8 @@ def comments(name, lines, mark):
     whole, behind = re.compile(rf"\s*{mark} ?(.*)"), re.compile(rf".*?\S.*?\s{mark} (.*)")
     block, first = [], 0
     for number, line in enumerate([*lines, ""], 1):
+        if "SPDX-License-Identifier" in line:
+            line = ""
         found = whole.fullmatch(line)
         if found:
             first = first or number

@@ -215,7 +215,7 @@ TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
   {
     Subprocess daemon = start(config);
     manager.await("READY=1");
-    EXPECT_THAT(daemon.output(), HasSubstr(in_force));
+    EXPECT_TRUE(says(daemon, in_force)) << daemon.output();
     EXPECT_EQ(read("system_configuration_refused"), 0);
     // It is kept once the pipeline runs, perhaps after the service is ready.
     ASSERT_TRUE(eventually(daemon, [&] { return fs::exists(folder / "last-good.json"); }));
@@ -228,7 +228,7 @@ TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
     EXPECT_THAT(manager.await("READY=1"), HasSubstr("calibration.toml:"));
     EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
     EXPECT_EQ(read("system_configuration_refused"), 1);
-    EXPECT_THAT(daemon.output(), HasSubstr(in_force));
+    EXPECT_TRUE(says(daemon, in_force)) << daemon.output();
     EXPECT_EQ(contents(file), damaged) << "nothing is lost";
   }
   std::ofstream(file) << good;
