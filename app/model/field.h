@@ -10,11 +10,11 @@
 #include "proc/signals/signals.h"
 
 /// Description of the parts of a status. A part is a struct whose members are declared in one list
-/// of lines like these, from which both the members and their descriptions are made: FIELD(type,
-/// name, quantity, description): a count (std::uint64_t), a measured number (double), a flag
-/// (bool), or a code: an enumeration with an operator_text() for each of its numbers; AGE(name,
-/// description): a moment of this process' clock, reported as "<name>_age" in seconds. A line may
-/// be appended, never moved or removed: interfaces number them by their place.
+/// of lines like these, from which both the members and their descriptions are made:
+///   FIELD(type, name, quantity, description): a count (std::uint64_t), a measured number (double),
+///     a flag (bool), or a code: an enumeration with an operator_text() for each of its numbers;
+///   AGE(name, description): a moment of this process' clock, reported as "<name>_age" in seconds.
+/// A line may be appended, never moved or removed: interfaces number them by their place.
 namespace orbwatch::app {
 
 /// Unit, resolution and range of a number. Interfaces of integers send value / scale; minimum and

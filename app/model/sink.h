@@ -17,9 +17,9 @@
 namespace orbwatch::app {
 
 /// An output interface. The pipeline passes views and status to it; a slow sink loses some of them,
-/// counted, and never delays the pipeline. Thread rule: start and stop on the main thread; accept
-/// on the pipeline's thread, where it must return at once (no lock held across work, no system call
-/// that may wait).
+/// counted, and never delays the pipeline.
+/// Thread rule: start and stop on the main thread; accept on the pipeline's thread, where it must
+/// return at once (no lock held across work, no system call that may wait).
 class Sink {
  public:
   virtual ~Sink() = default;

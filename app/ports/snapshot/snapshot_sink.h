@@ -38,8 +38,8 @@ void visit(Visitor& v, SnapshotSettings& snapshot) {
 /// VIEW_YYYYMMDDTHHMMSS.mmmZ_FRAMESET.png by the UTC of its exposure. A raw measured plane is
 /// written as VIEW_..._measured.png. Keeps the snapshots written last, by the files' modification
 /// times: if the clock was set back, a new file is dated just after the newest one. Other files in
-/// the folder are not touched. At most one picture of each view waits to be written. Thread rule:
-/// as Sink; request on any thread.
+/// the folder are not touched. At most one picture of each view waits to be written.
+/// Thread rule: as Sink; request on any thread.
 class SnapshotSink final : public Sink {
  public:
   explicit SnapshotSink(SnapshotSettings settings) : settings_(std::move(settings)) {}

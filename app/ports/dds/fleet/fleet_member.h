@@ -14,9 +14,9 @@ namespace orbwatch::app {
 
 /// Membership of the appliance in its domain's fleet: announces itself once a second, publishes a
 /// thumbnail every few seconds while it has viewers, and receives the announcements of the others.
-/// Without permission, as with keys of earlier versions, it does nothing and logs so. Thread rule:
-/// wants and accept by the pipeline's thread; topics and writers' statistics by any; the rest by
-/// one owner.
+/// Without permission, as with keys of earlier versions, it does nothing and logs so.
+/// Thread rule: wants and accept by the pipeline's thread; topics and writers' statistics by any;
+/// the rest by one owner.
 class FleetMember {
  public:
   /// `fleet`: receives the other appliances; null: they are not read.

@@ -21,8 +21,9 @@ struct StampedCalibration {
 };
 
 /// The camera_info beside an image topic: the calibration of each picture, with its stamp and
-/// frame_id. The newest wins. A topic without a reader has no cost. Thread rule: accept on one
-/// thread; publish, open and close by one owner; everything else on any thread.
+/// frame_id. The newest wins. A topic without a reader has no cost.
+/// Thread rule: accept on one thread; publish, open and close by one owner; everything else on any
+/// thread.
 class InfoTopic {
  public:
   /// `raw` is the name of the image topic.

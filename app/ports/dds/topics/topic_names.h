@@ -14,16 +14,19 @@ inline std::string ros_topic(std::string_view prefix, std::string_view name) {
 }
 
 /// DDS topic names, derived by the rule of ROS 2: "rt/" before the ROS name. The topics:
-/// rt/<prefix>/<view>/image_raw              the picture for people
-/// rt/<prefix>/<view>/radiometric/image_raw  the measured plane, mono16 counts or mono8
-/// rt/<prefix>/selected/image_raw            the view that Status::selected_view names
-/// rt/<prefix>/<camera>/ball/image_raw       a camera's own picture .../image_raw/compressed
-/// each but the measured ones as JPEG .../camera_info                           beside image_raw:
-/// the calibration of its picture, of a perspective view or a camera with a known lens
-/// rt/<prefix>/process_state                 the process state rt/<prefix>/event
-/// events rt/<prefix>/command                       requests to orbwatch rt/<prefix>/command_result
-/// answers to them rt/orbwatch_appliance                     the appliances of the domain, whatever
-/// their prefix rt/orbwatch_thumbnail                     what they see
+///   rt/<prefix>/<view>/image_raw              display picture
+///   rt/<prefix>/<view>/radiometric/image_raw  measured plane, mono16 counts or mono8
+///   rt/<prefix>/selected/image_raw            view selected by Status::selected_view
+///   rt/<prefix>/<camera>/ball/image_raw       a camera's own picture
+///   .../image_raw/compressed                  each picture except measured planes as JPEG
+///   .../camera_info                           beside image_raw: the calibration of its picture,
+///                                             for a perspective view or a camera with a known lens
+///   rt/<prefix>/process_state                 process state
+///   rt/<prefix>/event                         events
+///   rt/<prefix>/command                       requests to orbwatch
+///   rt/<prefix>/command_result                answers to the requests
+///   rt/orbwatch_appliance                     appliances of the domain, regardless of prefix
+///   rt/orbwatch_thumbnail                     thumbnails of their views
 inline std::string image_topic(std::string_view prefix, std::string_view view) {
   return ros_topic(prefix, view) + "/image_raw";
 }

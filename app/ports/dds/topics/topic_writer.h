@@ -36,8 +36,8 @@ constexpr void for_each_field(std::type_identity<TopicStatistics>, Visit&& visit
   ORBWATCH_DDS_TOPIC_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
-/// One topic and its writer, with statistics. Thread rule: one owner opens and closes; in between,
-/// everything else is thread-safe.
+/// One topic and its writer, with statistics.
+/// Thread rule: one owner opens and closes; in between, everything else is thread-safe.
 class TopicWriter {
  public:
   TopicWriter(const dds_topic_descriptor_t& type, std::string name)

@@ -19,8 +19,8 @@ class EchoFilter;
 
 /// Modbus RTU: serves one unit on a serial line. Opening a line is retried after 1 s, then every 2
 /// s, when it fails or the line disconnects, as USB adapters may. Own answers echoed by the adapter
-/// are dropped. Thread rule: open, run and the destructor by one owner, in this order; stop is
-/// thread-safe.
+/// are dropped.
+/// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
 class RtuServer {
  public:
   /// Answers one complete frame.

@@ -22,8 +22,8 @@ namespace orbwatch::app::modbus {
 /// Modbus TCP: accepts permitted clients, forwards their requests frame by frame, and closes
 /// connections that are too slow, do not receive answers, or do not speak Modbus. Idle connections
 /// stay while there is room; TCP keep-alive detects dead clients. Sockets are non-blocking, so that
-/// no client delays another. Thread rule: open, run and the destructor by one owner, in this order;
-/// stop is thread-safe.
+/// no client delays another.
+/// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
 class TcpServer {
  public:
   /// Answers one complete frame on a non-blocking socket.

@@ -17,8 +17,8 @@ namespace orbwatch::app::web {
 
 /// Executes commands one after the other on a separate thread, because it waits for the disk, and
 /// answers their requests. A command whose request was answered by its deadline is not executed;
-/// once its handler has begun, its result is the answer, however late. Thread rule: start and stop
-/// by one owner; everything else on any thread.
+/// once its handler has begun, its result is the answer, however late.
+/// Thread rule: start and stop by one owner; everything else on any thread.
 class CommandRunner {
  public:
   /// Limit of waiting commands; further ones are refused as busy.

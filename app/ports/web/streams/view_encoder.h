@@ -17,7 +17,8 @@
 namespace orbwatch::app::web {
 
 /// Compresses the newest picture of a view for its feed on shared threads, only while the feed has
-/// readers. Thread rule: wants and accept on the pipeline's thread; everything else by the owner.
+/// readers.
+/// Thread rule: wants and accept on the pipeline's thread; everything else by the owner.
 class ViewEncoder {
  public:
   /// Called with a view and the number under which its picture is sent next.

@@ -130,7 +130,7 @@ TEST(Forwarding, ThatContradictsItselfIsRefused) {
             "203.0.113.9");
 }
 
-/// A client's open quote must not hide what the proxy appends.
+/// A client's open quote must not hide the text that the proxy appends.
 TEST(Forwarding, IsNotHiddenInAQuotedString) {
   Request request =
       request_from("127.0.0.1", {{"Forwarded", R"(for=198.51.100.1;by=", for=203.0.113.9)"}});
