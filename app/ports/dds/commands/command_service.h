@@ -18,8 +18,8 @@
 namespace orbwatch::app {
 
 /// Receives commands over DDS, executes each at most once and answers it. The receive thread of DDS
-/// puts requests into a bounded queue and never waits; the owner's thread executes them. Thread
-/// rule: one owner; counts() is thread-safe.
+/// puts requests into a bounded queue and never waits; the owner's thread executes them.
+/// Thread rule: one owner; counts() is thread-safe.
 class CommandService {
  public:
   /// Limit of commands per second; further ones are refused as Busy.
