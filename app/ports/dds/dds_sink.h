@@ -45,9 +45,8 @@ class DdsSink final : public Sink {
   /// `names` in the order of View::index and of FrameSet::frames; the name of a view or camera is a
   /// topic part and the frame_id of its images. `handler` executes commands, on a thread of the
   /// sink; without a handler there is no command topic. `addresses` are checked once a second.
-  /// `identity` and `fleet`: see
-  /// FleetMember. `views` and `cameras` are in the order of `names`; missing ones are published with
-  /// the defaults.
+  /// `identity` and `fleet`: see FleetMember. `views` and `cameras` are in the order of `names`;
+  /// missing ones are published with the defaults.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
           Addresses addresses = network_addresses,
           std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
