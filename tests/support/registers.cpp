@@ -49,6 +49,9 @@ using Connection = std::unique_ptr<modbus_t, Close>;
 Connection connect_to(int port, const std::string& host = "127.0.0.1") {
   Connection context(modbus_new_tcp(host.c_str(), port));
   modbus_set_slave(context.get(), 1);
+  // libmodbus waits for half a second, which a sanitized daemon on a busy machine takes at times.
+  constexpr std::uint32_t kPatience = 10;
+  modbus_set_response_timeout(context.get(), kPatience, 0);
   if (modbus_connect(context.get()) != 0) return nullptr;
   return context;
 }
