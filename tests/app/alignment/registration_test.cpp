@@ -76,7 +76,7 @@ TEST(Simultaneous, RefusesWhatWasTakenAtOtherTimes) {
 /// A camera with a pose, and a registration of it by some degrees.
 class RegisteredAlignment : public testing::Test {
  protected:
-  RegisteredAlignment() : sought({}, rig, align::by_outline(rig, rig.cameras.front()).value()) {
+  RegisteredAlignment() : sought{{}, rig, align::by_outline(rig, rig.cameras.front()).value()} {
     registration.outline = *sought.camera.outline;
     registration.rotation = optics::rotation({3, -2, 1}) * sought.camera.registration;
   }
