@@ -216,7 +216,9 @@ std::string AccessDesk::role_of(const std::string& user) const {
 Response AccessDesk::session(const web::Request& request) const {
   const Caller caller = access_.caller(credentials_of(request));
   Json roles = Json::array();
-  for (const auto& role : kRoles) roles.push_back(std::string(role.name));
+  for (const auto& role : kRoles) {
+    if (role.value <= caller.role) roles.push_back(std::string(role.name));
+  }
   return json_response(Json{{"user", caller.name},
                             {"role", std::string(word_for(kRoles, caller.role))},
                             {"roles", roles},

@@ -89,7 +89,7 @@ const tabs = [
 
 const session = await admit(() => say(texts.connecting, true));
 // True: the user of the page may do what this role may.
-const isAtLeast = (role) => session.roles.indexOf(session.role) >= session.roles.indexOf(role);
+const isAtLeast = (role) => session.roles.includes(role);
 addTabs();
 const figures = await figuresOfAppliance();
 const made = [];
