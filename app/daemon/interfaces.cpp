@@ -15,7 +15,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// What sinks are made with; each takes those that its make_sink() names.
+/// Parts that sinks are made with; each sink takes those that its make_sink() names.
 using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>,
                              CommandPath, std::shared_ptr<hal::SharedThreads>,
                              std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
@@ -41,7 +41,7 @@ PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSo
           .program = std::move(program)};
 }
 
-/// Where other computers reach the appliance's page.
+/// Address of the appliance's page for other computers.
 PageAddress page_of(const SinkSettings& sinks) {
   PageAddress page;
   for_each_sink(sinks, [&page](const auto& settings) {

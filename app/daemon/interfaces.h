@@ -65,7 +65,7 @@ class Interfaces {
   std::uint32_t faults() const;
 
  private:
-  /// By bit of faults(); null: not enabled.
+  /// Sinks in the order of the bits of faults(); null: not enabled.
   std::array<std::unique_ptr<Sink>, kInterfaceNames.size()> all_;
   std::atomic<std::uint32_t> started_{0};  ///< bit n: all_[n]
 };

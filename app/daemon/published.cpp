@@ -12,7 +12,7 @@ PublishedSource published(const Resolved& site, const SourceSettings& source) {
   return {camera.name, source.colour_map, range_of(source), camera.radiometry.is_radiometric()};
 }
 
-/// As a measured view.
+/// Offers a measured view.
 PublishedView published(const Resolved& site, const ViewSettings& view) {
   PublishedView published_view;
   published_view.encoding = view.encoding;

@@ -16,7 +16,7 @@ namespace {
 /// Assumed scale of a thermal camera that is not connected yet, to check a recipe's temperatures.
 constexpr double kAssumedKelvinPerCount = 0.04;
 
-/// As SourceColours::map has it. The file's reader knows the name.
+/// Index of a colour map, see SourceColours::map. The file's reader has checked the name.
 std::size_t place_of(std::string_view colour_map) {
   const auto* const found = std::ranges::find(kColourMapNames, colour_map);
   return static_cast<std::size_t>(found - kColourMapNames.begin());

@@ -28,7 +28,7 @@ struct SitePlan {
   signals::RegionScene scene;              ///< the ball and the surfaces around it
   std::vector<hal::StreamFormat> formats;  ///< by camera
   std::vector<ViewPlan> views;             ///< display views, by index
-  /// By place in `views`: where a view of kind Ball shows the room, seen from the ball's centre;
+  /// In the order of `views`: the room as a view of kind Ball shows it, from the ball's centre;
   /// null for other kinds.
   std::vector<std::shared_ptr<const optics::ViewProjection>> balls;
   std::vector<RecipePlan> recipes;  ///< by place in Resolved::recipes

@@ -21,12 +21,12 @@ struct PublishedSource {
   bool is_radiometric = false;    ///< degC
 };
 
-/// How a view is offered to the outside.
+/// Properties of a published view.
 struct PublishedView {
   PixelFormat encoding = PixelFormat::Rgb;  ///< or Bgr or Grey
   bool measured = true;                     ///< it has a plane that is measured
   optics::ViewSpec spec{};                  ///< as configured
-  /// Of kind Ball: where the picture of the first camera that it shows has the room; else null.
+  /// Projection of the picture of the first camera that it shows, for kind Ball; else null.
   std::shared_ptr<const optics::ViewProjection> ball = nullptr;
   bool is_own_picture = false;  ///< a display view of kind Ball, of one camera
   bool mixes = false;           ///< a display view whose sources are blended by weight

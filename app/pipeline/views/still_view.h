@@ -21,7 +21,7 @@ struct StillSource {
   double sharpness = 0;  ///< as ViewSource::sharpness
 };
 
-/// How a still view is made.
+/// Settings of a still view.
 struct StillPlan {
   optics::ViewProjection projection;
   /// The format of all sources: Grey, Y16, Rgb or Rgb16; else Rgb, of sources that all are colour
@@ -47,7 +47,7 @@ struct StillView {
   std::vector<std::byte> pixels;
   std::vector<std::uint8_t> validity;  ///< one Validity per pixel
   MutablePicture picture;
-  /// By source, how its exposure was matched; empty: they were not.
+  /// Exposure match of each source; empty: exposures were not matched.
   std::vector<remap::PhotometricMatch> matches;
 };
 

@@ -21,7 +21,7 @@ namespace orbwatch::app {
 class AlignmentSource;
 class Fleet;
 
-/// What the page shows and no other interface.
+/// Parts of the appliance that only the page shows.
 struct PageContext {
   optics::Ball ball;                     ///< machine frame, mm
   optics::SceneProxy scene;              ///< around it
@@ -29,9 +29,9 @@ struct PageContext {
   AlignmentSource* alignment = nullptr;  ///< outlives the sink's run; null: none
   std::filesystem::path state_folder;    ///< of what must outlast a restart; empty: no users
   Program program;                       ///< around the appliance
-  /// What all sinks show of themselves, on any thread while they run; empty: nothing.
+  /// Tables about all sinks; callable on any thread while they run. Empty function: none.
   std::function<std::vector<InterfaceTable>()> tables = nullptr;
-  /// And what all count, under the same rule.
+  /// Counters of all sinks, under the same rule.
   std::function<std::vector<InterfaceMetric>()> metrics = nullptr;
 };
 
