@@ -179,8 +179,11 @@ void Access::keep() {
 }
 
 bool Access::has_users() const {
-  const std::lock_guard lock(mutex_);
-  return state_ != State::Nobody;
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_ != State::Nobody) return true;
+  }
+  return !may_trust();
 }
 
 Users Access::users() const {

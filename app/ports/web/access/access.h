@@ -54,6 +54,7 @@ class Access {
   /// Like caller(), and an invalid token sent as a password counts as a failed login of its
   /// address. Refusal: 429, the address has too many failures.
   tl::expected<Caller, Refusal> player(const Credentials& credentials);
+  /// Returns whether there are users, also before refresh() reads a new users file.
   bool has_users() const;
   /// Number of wrong passwords and codes since the start.
   std::uint64_t failures() const { return failures_; }

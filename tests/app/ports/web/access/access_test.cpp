@@ -217,10 +217,12 @@ TEST_F(AccessTest, APasswordSetAtTheBoardReplacesUsersThatAreGone) {
 /// Trust ends before the file is read again.
 TEST_F(AccessTest, TrustEndsWithThePasswordAtOnce) {
   EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Administrator);
+  EXPECT_FALSE(access->has_users());
   ASSERT_TRUE(change_users(users_file(folder.path()), [&](Users& users) {
     return set_user(users, "admin", Role::Administrator, "$hash");
   }));
   EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+  EXPECT_TRUE(access->has_users()) << "or the page asks for the code";
 }
 
 class Guessed : public AccessTest {
