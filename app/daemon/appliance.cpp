@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "app/daemon/aligned_site.h"
 #include "app/daemon/assumptions.h"
 #include "app/daemon/build.h"
 #include "app/daemon/cameras.h"
@@ -29,6 +28,16 @@ std::function<Health()> health_of(const Configuration& configuration,
     read.commands_recorded = record->is_kept() ? 1 : 0;
     return read;
   };
+}
+
+/// The part of a site that alignment and watch use.
+AlignedSite aligned_site(const Resolved& site) {
+  AlignedSite aligned{{}, site.rig, site.alignments, site.site.place};
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    const CameraSettings& camera = site.site.cameras[i];
+    aligned.cameras.push_back({camera.name, site.rig_cameras[i], camera.watch});
+  }
+  return aligned;
 }
 
 /// The lines as configured; simulated ones are connected as the machine's settings say.
