@@ -11,7 +11,6 @@
 
 #include "app/model/command.h"
 #include "app/model/sink.h"
-#include "app/ports/dds/commands/bounded_queue.h"
 #include "app/ports/dds/commands/command_service.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/fleet/fleet_member.h"
@@ -26,6 +25,7 @@
 #include "app/ports/dds/status/status_topics.h"
 #include "app/ports/dds/topics/type_watch.h"
 #include "hal/back_off.h"
+#include "hal/thread/bounded_queue.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/thread.h"
 
@@ -103,7 +103,7 @@ class DdsSink final : public Sink {
   PictureTopics selected_;
   InfoTopic selected_info_;
   hal::Mailbox<StampedStatus> status_;
-  BoundedQueue<StampedNotice, kMaxNotices> notices_;
+  hal::BoundedQueue<StampedNotice, kMaxNotices> notices_;
   std::atomic<bool> running_{false};
   std::atomic<std::uint64_t> unknown_views_{0};
   std::atomic<std::uint64_t> joins_{0};

@@ -50,11 +50,8 @@ Result<> ModbusSink::make_responder() {
   if (!responder) return tl::unexpected(responder.error());
   responder_ = std::move(*responder);
   command_thread_.start("modbus commands", [this] {
-    // A command written before stop() is still executed.
-    for (bool last = false; !last;) {
-      last = !command_thread_.wait();
-      plc_->carry_out();
-    }
+    while (command_thread_.wait()) plc_->carry_out();
+    plc_->carry_out();  // a command written before stop()
   });
   start_supervision();
   const std::lock_guard lock(mutex_);

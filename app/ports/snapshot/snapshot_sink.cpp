@@ -131,7 +131,10 @@ Result<> SnapshotSink::start() {
   if (auto removed = hal::remove_unfinished(settings_.folder); !removed) {
     return fail("snapshot.folder: " + removed.error().message);
   }
-  thread_.start("snapshot", hal::ThreadRole::Background, [this] { run(); });
+  thread_.start("snapshot", hal::ThreadRole::Background, [this] {
+    while (thread_.wait()) write_all();
+    write_all();  // views accepted before the stop
+  });
   return {};
 }
 
@@ -139,12 +142,9 @@ void SnapshotSink::accept(const Status& status) {
   for (std::size_t i = 0; i < status.view_count; ++i) {
     live_[i] = status.views[i].live;
     if (live_[i] || !wanted_[i].exchange(false)) continue;
-    {
-      const std::lock_guard lock(mutex_);
-      dropped_.set(i);
-    }
     busy_[i] = false;
-    thread_.wake();
+    log_soon(LogLevel::Warning, {"snapshot: request dropped: view ", std::to_string(i),
+                                 " no longer has a recipe or a camera"});
   }
 }
 
@@ -155,50 +155,21 @@ PictureNeeds SnapshotSink::needs(std::size_t view, hal::TimePoint /*stamp*/) {
 
 void SnapshotSink::accept(const ViewPtr& view) {
   if (!asked_[view->index] || !wanted_[view->index].exchange(false)) return;
-  {
-    const std::lock_guard lock(mutex_);
-    accepted_[view->index] = view;
-  }
+  accepted_.put(view);
   thread_.wake();
 }
 
-void SnapshotSink::run() {
-  while (thread_.wait()) write_all();
-  write_all();  // views accepted before the stop
-}
-
-void SnapshotSink::log_dropped() {
-  std::bitset<kMaxViews> dropped;
-  {
-    const std::lock_guard lock(mutex_);
-    dropped = std::exchange(dropped_, {});
-  }
-  for (std::size_t i = 0; i < kMaxViews; ++i) {
-    if (!dropped[i]) continue;
-    log_line(LogLevel::Warning, "snapshot: request dropped: view " + std::to_string(i) +
-                                    " no longer has a recipe or a camera");
-  }
-}
-
 void SnapshotSink::write_all() {
-  log_dropped();
-  while (ViewPtr view = next()) {
-    const std::size_t index = view->index;
-    const std::string name = name_of(*view);
-    const auto written = write(*view, name);
+  while (auto view = accepted_.try_take()) {
+    const std::size_t index = (*view)->index;
+    const std::string name = name_of(**view);
+    const auto written = write(**view, name);
     view.reset();
     const auto done = written.and_then([&] { return remove_oldest(name); });
     if (!done) log_line(LogLevel::Error, "snapshot: " + done.error().message);
     busy_[index] = false;
     if (done) ++written_;
   }
-}
-
-/// The next view to write; null: none.
-ViewPtr SnapshotSink::next() {
-  const std::lock_guard lock(mutex_);
-  const auto view = std::ranges::find_if(accepted_, [](const ViewPtr& v) { return v != nullptr; });
-  return view == accepted_.end() ? nullptr : std::exchange(*view, nullptr);
 }
 
 Result<> SnapshotSink::write(const View& view, const std::string& name) {

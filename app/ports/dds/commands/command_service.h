@@ -6,7 +6,6 @@
 #include <functional>
 #include <string>
 
-#include "app/ports/dds/commands/bounded_queue.h"
 #include "app/ports/dds/commands/command_request.h"
 #include "app/ports/dds/commands/request_ledger.h"
 #include "app/ports/dds/participant/rate_limit.h"
@@ -14,6 +13,7 @@
 #include "app/ports/dds/topics/topic_reader.h"
 #include "app/ports/dds/topics/topic_writer.h"
 #include "app/state/command_record.h"
+#include "hal/thread/bounded_queue.h"
 
 namespace orbwatch::app {
 
@@ -57,7 +57,7 @@ class CommandService {
   TopicWriter results_;
 
   // Shared by the receive thread of DDS and the owner's.
-  BoundedQueue<CommandRequest, kMaxWaiting> queue_;
+  hal::BoundedQueue<CommandRequest, kMaxWaiting> queue_;
 
   // Used by the owner's thread only; kept across open() and close().
   RequestLedger ledger_{CommandRecord::kMaxClients};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/access/slow_work.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace orbwatch::app::web {
@@ -14,38 +13,30 @@ void SlowWork::start() {
 
 void SlowWork::run(const ExchangePtr& exchange, const Asker& asker,
                    std::function<Response()> work) {
-  bool is_full = false;
-  {
-    const std::lock_guard lock(mutex_);
-    Queue& queue = asker.is_known ? known_ : unknown_;
-    const auto own = static_cast<std::size_t>(std::ranges::count(queue, asker.key, &Waiting::key));
-    is_full =
-        queue.size() == kMostWaiting || own >= (asker.is_known ? kMostOfKnown : kMostOfUnknown);
-    if (!is_full) queue.push_back({asker.key, exchange, std::move(work)});
+  const std::size_t most = asker.is_known ? kMostOfKnown : kMostOfUnknown;
+  const auto is_own = [&asker](const Waiting& waiting) { return waiting.key == asker.key; };
+  if ((asker.is_known ? known_ : unknown_)
+          .put({asker.key, exchange, std::move(work)}, most, is_own)) {
+    return thread_.wake();
   }
-  if (!is_full) return thread_.wake();
   Response response = error_response(503, busy_);
   response.headers.emplace_back("Retry-After", "1");
   exchange->answer(std::move(response));
 }
 
-SlowWork::Queue& SlowWork::next_queue() {
-  const bool is_turn_of_unknown = was_known_ && !unknown_.empty();
-  was_known_ = !known_.empty() && !is_turn_of_unknown;
-  return was_known_ ? known_ : unknown_;
+/// The next request, in turn of both queues; nullopt: none waits.
+std::optional<SlowWork::Waiting> SlowWork::next() {
+  auto found = (was_known_ ? unknown_ : known_).try_take();
+  if (!found) return (was_known_ ? known_ : unknown_).try_take();
+  was_known_ = !was_known_;
+  return found;
 }
 
 void SlowWork::work_all() {
   while (!thread_.stop_requested()) {
-    Waiting next;
-    {
-      const std::lock_guard lock(mutex_);
-      Queue& queue = next_queue();
-      if (queue.empty()) return;
-      next = std::move(queue.front());
-      queue.pop_front();
-    }
-    if (next.exchange->begin_effect()) next.exchange->answer(next.work());
+    const auto next = this->next();
+    if (!next) return;
+    if (next->exchange->begin_effect()) next->exchange->answer(next->work());
   }
 }
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <functional>
-#include <mutex>
+#include <optional>
 #include <string>
 
 #include "app/ports/web/http/exchange.h"
+#include "hal/thread/bounded_queue.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app::web {
@@ -51,16 +51,14 @@ class SlowWork {
     ExchangePtr exchange;
     std::function<Response()> work;
   };
-  using Queue = std::deque<Waiting>;
 
+  std::optional<Waiting> next();
   void work_all();
-  Queue& next_queue();  ///< empty: no request waits; guarded by mutex_
 
   const char* const thread_name_;
   const char* const busy_;
-  std::mutex mutex_;
-  Queue known_, unknown_;   ///< under mutex_
-  bool was_known_ = false;  ///< kind of the client served last; guarded by mutex_
+  hal::BoundedQueue<Waiting, kMostWaiting> known_, unknown_;
+  bool was_known_ = false;  ///< kind of the client served last; used by the thread only
   hal::Thread thread_;
 };
 

@@ -37,43 +37,29 @@ CommandRunner::CommandRunner(CommandHandler handler, std::shared_ptr<CommandReco
 
 void CommandRunner::start() {
   thread_.start("web commands", [this] {
-    // Commands accepted before stop() are still executed.
-    for (bool last = false; !last;) {
-      last = !thread_.wait();
-      carry_out_all();
-    }
+    while (thread_.wait()) carry_out_all();
+    carry_out_all();  // commands accepted before stop()
   });
 }
 
 void CommandRunner::run(const Command& command, const ExchangePtr& exchange, OnResult on_result) {
   if (!handler_) return answer(*exchange, CommandResult::NotPossible);
-  bool is_full = false;
-  {
-    const std::lock_guard lock(mutex_);
-    is_full = waiting_.size() == kMostWaiting;
-    if (!is_full) waiting_.push_back({command, exchange, std::move(on_result)});
+  if (!waiting_.put({command, exchange, std::move(on_result)})) {
+    return answer(*exchange, CommandResult::Busy);
   }
-  if (is_full) return answer(*exchange, CommandResult::Busy);
   thread_.wake();
 }
 
 void CommandRunner::carry_out_all() {
-  while (true) {
-    Waiting next;
-    {
-      const std::lock_guard lock(mutex_);
-      if (waiting_.empty()) return;
-      next = std::move(waiting_.front());
-      waiting_.pop_front();
-    }
-    if (next.exchange->is_answered()) continue;
+  while (const auto next = waiting_.try_take()) {
+    if (next->exchange->is_answered()) continue;
     // Recording waits for the disk, possibly beyond the request's deadline.
     const auto handle = [&](const Command& command) {
-      return next.exchange->begin_effect() ? handler_(command) : CommandResult::NotCarriedOut;
+      return next->exchange->begin_effect() ? handler_(command) : CommandResult::NotCarriedOut;
     };
-    const CommandResult result = record_->carry_out({kClient, ++number_}, next.command, handle);
-    next.on_result(result);
-    answer(*next.exchange, result);
+    const CommandResult result = record_->carry_out({kClient, ++number_}, next->command, handle);
+    next->on_result(result);
+    answer(*next->exchange, result);
   }
 }
 

@@ -3,14 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #include "app/model/command.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/state/command_record.h"
+#include "hal/thread/bounded_queue.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app::web {
@@ -56,8 +55,7 @@ class CommandRunner {
   const CommandHandler handler_;
   const std::shared_ptr<CommandRecord> record_;
   std::uint64_t number_ = 0;  ///< number of the newest command; used by the thread only
-  std::mutex mutex_;
-  std::deque<Waiting> waiting_;  ///< under mutex_
+  hal::BoundedQueue<Waiting, kMostWaiting> waiting_;
   std::atomic<std::uint64_t> done_{0};
   std::atomic<std::uint64_t> refused_{0};
   hal::Thread thread_;
