@@ -12,7 +12,7 @@ namespace orbwatch::hal {
 namespace {
 
 constexpr int kAddressBits = 128;
-constexpr int kMappedBits = 96;  // bits before an IPv4 address in an IPv6 one
+constexpr int kMappedBits = 8 * kV4Begin;
 
 /// Mask of the byte at `place` of an address with `prefix_length` leading ones.
 std::uint8_t mask_of(int prefix_length, std::size_t place) {
@@ -28,19 +28,11 @@ std::optional<int> number_in(std::string_view text) {
   return number;
 }
 
-bool is_v4(const HostAddress& host) {
-  static const Network kMapped{parse_network("::ffff:0:0/96").value()};
-  return kMapped.contains(host);
-}
-
 }  // namespace
 
 std::optional<HostAddress> parse_host(const std::string& text) {
-  HostAddress host{};
-  if (::inet_pton(AF_INET, text.c_str(), &host[kMappedBits / 8]) == 1) {
-    host[10] = host[11] = 0xff;
-    return host;
-  }
+  HostAddress host = kAnyV4;
+  if (::inet_pton(AF_INET, text.c_str(), &host[kV4Begin]) == 1) return host;
   if (::inet_pton(AF_INET6, text.c_str(), host.data()) == 1) return host;
   return std::nullopt;
 }
@@ -48,9 +40,19 @@ std::optional<HostAddress> parse_host(const std::string& text) {
 std::string text_of(const HostAddress& host) {
   std::array<char, INET6_ADDRSTRLEN> text{};
   const bool is_mapped = is_v4(host);
-  ::inet_ntop(is_mapped ? AF_INET : AF_INET6, host.data() + (is_mapped ? kMappedBits / 8 : 0),
-              text.data(), text.size());
+  ::inet_ntop(is_mapped ? AF_INET : AF_INET6, host.data() + (is_mapped ? kV4Begin : 0), text.data(),
+              text.size());
   return text.data();
+}
+
+bool is_v4(const HostAddress& host) {
+  return std::equal(host.begin(), host.begin() + kV4Begin, kAnyV4.begin());
+}
+
+bool is_loopback(const HostAddress& host) {
+  static const std::vector<Network> kLoopback{parse_network("127.0.0.0/8").value(),
+                                              parse_network("::1").value()};
+  return any_contains(kLoopback, host);
 }
 
 bool Network::contains(const HostAddress& host) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,11 +16,20 @@ namespace orbwatch::hal {
 /// The address of a host: IPv6, or IPv4 mapped into it (::ffff:a.b.c.d).
 using HostAddress = std::array<std::uint8_t, 16>;
 
+/// The address 0.0.0.0, mapped. Every IPv4 address differs from it only from byte kV4Begin on.
+inline constexpr HostAddress kAnyV4{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
+inline constexpr std::size_t kV4Begin = 12;
+
 /// Parses a numeric IPv4 or IPv6 address: 10.0.0.7, fd00::1.
 std::optional<HostAddress> parse_host(const std::string& text);
 
 /// Numeric text of an address: 10.0.0.7, fd00::1.
 std::string text_of(const HostAddress& host);
+
+bool is_v4(const HostAddress& host);
+
+/// True for 127.0.0.0/8 and ::1.
+bool is_loopback(const HostAddress& host);
 
 /// One host, or all hosts of a CIDR prefix (RFC 4632, RFC 4291).
 struct Network {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/model/appliance_notice.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "app/model/readings.h"
+#include "hal/network.h"
 
 namespace orbwatch::app {
 namespace {
@@ -25,16 +23,11 @@ signals::AlarmLevel worst_level(const signals::Alarm& alarm) {
 
 /// Host part of a URL; nullopt: not a numeric address, or not the address of one host.
 std::optional<std::string> host_of(const std::string& address) {
-  in_addr v4{};
-  if (inet_pton(AF_INET, address.c_str(), &v4) == 1) {
-    const bool is_one =
-        v4.s_addr != INADDR_ANY && !IN_MULTICAST(ntohl(v4.s_addr)) && v4.s_addr != INADDR_BROADCAST;
-    return is_one ? std::optional(address) : std::nullopt;
-  }
-  in6_addr v6{};
-  if (inet_pton(AF_INET6, address.c_str(), &v6) != 1) return std::nullopt;
-  if (IN6_IS_ADDR_UNSPECIFIED(&v6) || IN6_IS_ADDR_MULTICAST(&v6)) return std::nullopt;
-  return "[" + address + "]";
+  static const auto kNotOne =
+      hal::parse_networks({"0.0.0.0", "224.0.0.0/4", "255.255.255.255", "::", "ff00::/8"}).value();
+  const auto host = hal::parse_host(address);
+  if (!host || hal::any_contains(kNotOne, *host)) return std::nullopt;
+  return address.find(':') == address.npos ? address : "[" + address + "]";
 }
 
 }  // namespace

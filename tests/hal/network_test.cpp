@@ -57,6 +57,28 @@ TEST(Network, IsEverybodyWithAPrefixOfNothing) {
   }
 }
 
+TEST(HostAddress, IsWrittenAsItIsRead) {
+  for (const char* text : {"10.0.0.7", "fd00::1", "::1", "127.0.0.1"}) {
+    EXPECT_EQ(text_of(host(text)), text);
+  }
+  EXPECT_EQ(text_of(host("::ffff:10.0.0.7")), "10.0.0.7");
+}
+
+TEST(HostAddress, IsLoopbackOfEitherProtocol) {
+  for (const char* own : {"127.0.0.1", "127.8.8.8", "::1", "::ffff:127.0.0.1"}) {
+    EXPECT_TRUE(is_loopback(host(own))) << own;
+  }
+  for (const char* other : {"0.0.0.0", "::", "10.0.0.1", "128.0.0.1", "::2", "::127.0.0.1"}) {
+    EXPECT_FALSE(is_loopback(host(other))) << other;
+  }
+}
+
+TEST(HostAddress, IsOfOneProtocol) {
+  for (const char* v4 : {"10.0.0.7", "0.0.0.0", "::ffff:10.0.0.7"})
+    EXPECT_TRUE(is_v4(host(v4))) << v4;
+  for (const char* v6 : {"fd00::1", "::", "::10.0.0.7"}) EXPECT_FALSE(is_v4(host(v6))) << v6;
+}
+
 TEST(Network, SaysWhatIsWrong) {
   const auto error = [](const std::string& text) {
     const auto network = parse_network(text);

@@ -10,7 +10,7 @@
 #include "app/cli/doctor/program_output.h"
 #include "app/daemon/site_check.h"
 #include "app/health/system_file.h"
-#include "app/ports/web/http/address.h"
+#include "hal/socket_address.h"
 #include "hal/thread/file_descriptor.h"
 
 /// Facts about ports, limits of the network, packet filter.
@@ -23,10 +23,10 @@ constexpr std::size_t kLongestTable = std::size_t{1} << 20;  // bytes, 7000 sock
 
 /// errno of binding like orbwatchd; the port is free again at once, since nothing listened.
 int bind_error(const std::string& address, int port) {
-  const auto parsed = web::parse_address(address, port);
+  const auto parsed = hal::parse_address(address, port);
   if (!parsed) return EINVAL;
   const hal::FileDescriptor socket(
-      ::socket(parsed->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+      ::socket(parsed->family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket.is_open()) return errno;
   const int on = 1;
   if (::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) != 0) return errno;

@@ -8,6 +8,7 @@
 
 #include "app/log.h"
 #include "app/ports/modbus/map/register_table.h"
+#include "hal/socket_address.h"
 
 namespace orbwatch::app {
 
@@ -90,12 +91,12 @@ Result<> ModbusSink::open_tcp() {
 
 /// Logs a refused write once per host, with the setting that would permit it.
 void ModbusSink::report_forbidden(int socket) {
-  modbus::SocketAddress peer;
+  hal::SocketAddress peer;
   if (::getpeername(socket, peer.get(), &peer.length) != 0) return;  // the client has disconnected
-  const modbus::HostAddress host = modbus::host_of(peer);
+  const modbus::HostAddress host = peer.host();
   if (!forbidden_.is_new(host)) return;
   std::vector<std::string> writers = settings_.writers;
-  writers.push_back(modbus::text_of(host));
+  writers.push_back(hal::text_of(host));
   // Other clients wait for this thread. A list too long for the log is cut at its end.
   log_soon(LogLevel::Warning,
            {"modbus: write refused to ", writers.back(),
@@ -150,7 +151,7 @@ std::vector<InterfaceTable> ModbusSink::tables() const {
   InterfaceTable clients{"modbus", "clients", {"address", "may_write", "requests", "idle_s"}, {}};
   for (const auto& client : tcp_ ? tcp_->clients() : std::vector<modbus::TcpServer::Client>()) {
     const std::chrono::duration<double> idle = image.now - client.last_request;
-    clients.rows.push_back({modbus::text_of(client.host), client.may_write,
+    clients.rows.push_back({hal::text_of(client.host), client.may_write,
                             static_cast<double>(client.requests), idle.count()});
   }
   return {modbus::register_table(map_, image), std::move(clients)};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/genicam/device/gige_identity.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -10,6 +8,7 @@
 #include <chrono>
 
 #include "hal/clock.h"
+#include "hal/socket_address.h"
 #include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::hal {
@@ -103,19 +102,15 @@ std::optional<std::string> memory_in_answer(std::span<const std::byte> answer,
 }
 
 bool is_ip_address(const std::string& text) {
-  in_addr address{};
-  return ::inet_pton(AF_INET, text.c_str(), &address) == 1;
+  const auto host = parse_host(text);
+  return host && is_v4(*host);
 }
 
 std::optional<GigeIdentity> read_gige_identity(const std::string& address) {
-  sockaddr_in camera{};
-  camera.sin_family = AF_INET;
-  camera.sin_port = htons(kPort);
-  if (::inet_pton(AF_INET, address.c_str(), &camera.sin_addr) != 1) return std::nullopt;
+  const auto camera = parse_address(address, kPort);
+  if (!camera || camera->family() != AF_INET) return std::nullopt;
   const FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&camera), sizeof(camera)) != 0) {
-    return std::nullopt;
-  }
+  if (::connect(socket.get(), camera->get(), camera->length) != 0) return std::nullopt;
   // An absent camera costs the timeout of only one register.
   const auto serial = read_text(socket, 1, kSerial);
   if (!serial) return std::nullopt;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/participant/network_addresses.h"
 
-#include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 #include <iterator>
@@ -15,14 +13,11 @@
 #include <system_error>
 #include <tuple>
 
+#include "hal/host.h"
+#include "hal/socket_address.h"
+
 namespace orbwatch::app {
 namespace {
-
-std::string text_of(const in_addr& address) {
-  std::array<char, INET_ADDRSTRLEN> text{};
-  inet_ntop(AF_INET, &address, text.data(), text.size());
-  return text.data();
-}
 
 /// The IPv4 address to which the UDP socket `file` is bound; nullopt: not such a socket, or bound
 /// to all addresses.
@@ -30,14 +25,16 @@ std::optional<std::string> bound_address(int file) {
   int type = 0;
   socklen_t length = sizeof type;
   if (getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &length) != 0 || type != SOCK_DGRAM) return {};
-  sockaddr_in name{};
-  length = sizeof name;
-  if (getsockname(file, reinterpret_cast<sockaddr*>(&name), &length) != 0) return {};
-  if (name.sin_family != AF_INET || name.sin_addr.s_addr == INADDR_ANY) return {};
-  return text_of(name.sin_addr);
+  hal::SocketAddress name;
+  if (getsockname(file, name.get(), &name.length) != 0 || name.family() != AF_INET) return {};
+  std::string address = hal::text_of(name.host());
+  return hal::is_unspecified(address) ? std::nullopt : std::optional(std::move(address));
 }
 
-bool is_loopback(const NetworkAddress& address) { return address.address.starts_with("127."); }
+bool is_loopback(const NetworkAddress& address) {
+  const auto host = hal::parse_host(address.address);
+  return host && hal::is_loopback(*host);
+}
 
 }  // namespace
 
@@ -49,8 +46,7 @@ std::optional<std::vector<NetworkAddress>> network_addresses() {
   for (const ifaddrs* at = found; at != nullptr; at = at->ifa_next) {
     const bool up = (at->ifa_flags & IFF_UP) != 0;
     if (!up || at->ifa_addr == nullptr || at->ifa_addr->sa_family != AF_INET) continue;
-    const auto& address = reinterpret_cast<const sockaddr_in*>(at->ifa_addr)->sin_addr;
-    addresses.push_back({at->ifa_name, text_of(address)});
+    addresses.push_back({at->ifa_name, hal::text_of(hal::SocketAddress(at->ifa_addr).host())});
   }
   std::ranges::sort(addresses, {}, [](const NetworkAddress& address) {
     return std::tie(address.interface, address.address);

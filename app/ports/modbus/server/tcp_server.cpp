@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/modbus/server/tcp_server.h"
 
+#include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
@@ -12,6 +13,8 @@
 #include <system_error>
 #include <tuple>
 #include <utility>
+
+#include "hal/socket_address.h"
 
 namespace orbwatch::app::modbus {
 namespace {
@@ -61,8 +64,8 @@ Result<> check(const ModbusSettings& settings) {
 /// Address by which the client of an accepted socket reached this host; unspecified if the client
 /// has disconnected.
 HostAddress server_host(int socket) {
-  SocketAddress address;
-  return ::getsockname(socket, address.get(), &address.length) == 0 ? host_of(address)
+  hal::SocketAddress address;
+  return ::getsockname(socket, address.get(), &address.length) == 0 ? address.host()
                                                                     : HostAddress{};
 }
 
@@ -88,7 +91,7 @@ Result<std::unique_ptr<TcpServer>> TcpServer::open(const ModbusSettings& setting
 }
 
 Result<> TcpServer::listen() {
-  auto address = parse_address(settings_.address, settings_.port);
+  auto address = hal::parse_address(settings_.address, settings_.port);
   if (!address) {
     return fail("modbus: address '" + settings_.address +
                 "' is not a numeric IP address; set one of this machine, or 0.0.0.0 for all");
@@ -99,7 +102,7 @@ Result<> TcpServer::listen() {
                 std::to_string(settings_.port) + ": " + text_of(error) + "; " + advice(error));
   };
   listener_ = hal::FileDescriptor(
-      ::socket(address->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+      ::socket(address->family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener_.is_open()) return refused();
   // Needed so that a restart does not wait for connections of the previous run to time out.
   const int on = 1;
@@ -109,7 +112,7 @@ Result<> TcpServer::listen() {
       ::getsockname(listener_.get(), address->get(), &address->length) != 0) {
     return refused();
   }
-  port_ = port_of(*address);
+  port_ = address->port();
   return {};
 }
 
@@ -150,7 +153,7 @@ void TcpServer::run() {
 
 /// Accepts one client per round, so that a flood of connections does not delay served clients.
 void TcpServer::accept_client() {
-  SocketAddress peer;
+  hal::SocketAddress peer;
   hal::FileDescriptor socket(
       ::accept4(listener_.get(), peer.get(), &peer.length, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!socket.is_open()) {
@@ -160,7 +163,7 @@ void TcpServer::accept_client() {
     }
     return;
   }
-  const HostAddress host = host_of(peer);
+  const HostAddress host = peer.host();
   const Permission permission = access_.of(host, server_host(socket.get()));
   if (permission == Permission::None || !has_room_for(permission)) {
     ++counters_.dropped;
