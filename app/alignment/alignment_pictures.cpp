@@ -31,37 +31,39 @@ Result<> AlignmentPictures::request(const AlignmentPicture& picture,
                   " pictures of the camera are asked for already; try again");
     }
     queue.waiting.push_back({ball, picture.view, std::move(on_picture), std::move(is_wanted)});
-    if (std::exchange(queue.is_asked, true)) return {};
+    if (std::exchange(queue.is_served, true)) return {};
   }
-  watch_.ask(picture.camera, [this, camera = picture.camera](RecordedPicture taken) {
-    take(camera, std::move(taken));
-  });
+  ask(picture.camera);
   return {};
 }
 
+void AlignmentPictures::ask(std::size_t camera) {
+  watch_.ask(camera, [this, camera](RecordedPicture taken) { take(camera, std::move(taken)); });
+}
+
 void AlignmentPictures::take(std::size_t camera, RecordedPicture picture) {
+  std::vector<Wanted> wanted;
   {
     const std::lock_guard lock(mutex_);
-    Queue& queue = queues_[camera];
-    queue.is_asked = false;
-    taken_.push_back({std::exchange(queue.waiting, {}), std::move(picture)});
+    wanted = std::exchange(queues_[camera].waiting, {});
   }
+  taken_.put({camera, std::move(wanted), std::move(picture)});
   work_.request();
 }
 
 void AlignmentPictures::make() {
-  while (true) {
-    Taken next;
+  while (const auto next = taken_.try_take()) {
+    for (const Wanted& wanted : next->wanted) {
+      if (!wanted.is_wanted()) continue;
+      wanted.on_picture(alignment_jpeg(next->picture.picture, wanted.ball, wanted.view));
+    }
+    bool is_next_wanted = false;
     {
       const std::lock_guard lock(mutex_);
-      if (taken_.empty()) return;
-      next = std::move(taken_.front());
-      taken_.pop_front();
+      Queue& queue = queues_[next->camera];
+      is_next_wanted = queue.is_served = !queue.waiting.empty();
     }
-    for (const Wanted& wanted : next.wanted) {
-      if (!wanted.is_wanted()) continue;
-      wanted.on_picture(alignment_jpeg(next.picture.picture, wanted.ball, wanted.view));
-    }
+    if (is_next_wanted) ask(next->camera);
   }
 }
 

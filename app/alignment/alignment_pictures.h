@@ -3,13 +3,13 @@
 
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "app/alignment/watched_cameras.h"
 #include "app/model/alignment.h"
+#include "hal/thread/bounded_queue.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -40,20 +40,22 @@ class AlignmentPictures {
   /// Requests that wait for one camera's next picture.
   struct Queue {
     std::vector<Wanted> waiting;
-    bool is_asked = false;  ///< the watch is to copy that picture
+    bool is_served = false;  ///< from the request for that picture until its answers are made
   };
   struct Taken {
+    std::size_t camera = 0;
     std::vector<Wanted> wanted;
     RecordedPicture picture;
   };
 
+  void ask(std::size_t camera);
   void take(std::size_t camera, RecordedPicture picture);
   void make();
 
   WatchedCameras& watch_;
   std::mutex mutex_;
-  std::array<Queue, kMaxCameras> queues_;  ///< one per camera; under mutex_
-  std::deque<Taken> taken_;                ///< under mutex_
+  std::array<Queue, kMaxCameras> queues_;        ///< one per camera; under mutex_
+  hal::BoundedQueue<Taken, kMaxCameras> taken_;  ///< at most one of each camera
   hal::SharedThreads::Work work_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -26,7 +27,11 @@ class AlignmentPicturesTest : public tests::TwoWatchedCameras {
       std::size_t camera, AlignmentSource::IsWanted is_wanted = [] { return true; }) {
     const auto ball = optics::ball_projection(site.rig, site.rig.cameras[camera]);
     return pictures.request(
-        {camera, {}, false, {}}, ball.value(), [this](const Result<std::string>&) { ++made; },
+        {camera, {}, false, {}}, ball.value(),
+        [this](const Result<std::string>&) {
+          on_made();
+          ++made;
+        },
         std::move(is_wanted));
   }
   void show(std::size_t camera) {
@@ -36,6 +41,7 @@ class AlignmentPicturesTest : public tests::TwoWatchedCameras {
     watch->accept_frames(set);
   }
 
+  std::function<void()> on_made = [] {};
   std::atomic<std::size_t> made{0};
   AlignmentPictures pictures;
 };
@@ -61,6 +67,18 @@ TEST_F(AlignmentPicturesTest, ThatNobodyWaitsForAnyMoreAreDropped) {
   EXPECT_TRUE(ask(1));
   while (made < 2 && std::chrono::steady_clock::now() < give_up) show(1);
   EXPECT_EQ(made, 2U) << "none of the sixteen";
+}
+
+TEST_F(AlignmentPicturesTest, OneAskedForWhileAnotherIsMadeIsMadeOfTheNextFrame) {
+  on_made = [this] {
+    if (made == 0) {
+      EXPECT_TRUE(ask(0));
+    }
+  };
+  ASSERT_TRUE(ask(0));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (made < 2 && std::chrono::steady_clock::now() < give_up) show(0);
+  EXPECT_EQ(made, 2U);
 }
 
 TEST_F(AlignmentPicturesTest, OfACameraWithAFaultAreRefusedAtOnce) {
