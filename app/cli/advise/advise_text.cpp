@@ -7,7 +7,6 @@
 #include "app/cli/text_table.h"
 
 namespace orbwatch::app {
-namespace {}  // namespace
 
 std::string advise_text(const align::Arrangement& arrangement, const align::Advice& a) {
   std::string out;
