@@ -130,8 +130,8 @@ Result<std::string> reset(Calibrations& all, const std::string& camera) {
   return accepted(all, std::move(entry));
 }
 
-Result<std::string> run(const std::filesystem::path& config, bool json,
-                        const std::vector<std::string>& words) {
+CliResult<std::string> run(const std::filesystem::path& config, bool json,
+                           const std::vector<std::string>& words) {
   const std::string what = words.empty() ? "" : words.front();
   const bool is_right = (what == "history" && words.size() == 1) ||
                         ((what == "restore" || what == "reset") && words.size() == 2);
@@ -157,7 +157,7 @@ Result<std::string> run(const std::filesystem::path& config, bool json,
 
 }  // namespace
 
-Result<std::string> calibration_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> calibration_command(const Arguments& arguments) {
   std::filesystem::path config;
   bool json = false;
   return run_command(

@@ -7,7 +7,7 @@
 
 namespace orbwatch::app {
 
-Result<std::string> command_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> command_command(const Arguments& arguments) {
   CommandOptions o;
   return run_command(
       arguments,
@@ -19,7 +19,7 @@ Result<std::string> command_command(const std::vector<std::string>& arguments) {
        .takes_words = true,
        .order = OptionOrder::First,  // angles may be negative
        .notes = "\nCommands:\n" + commands_help()},
-      [&](const std::vector<std::string>& words) -> Result<std::string> {
+      [&](const std::vector<std::string>& words) -> CliResult<std::string> {
         const auto command = parse_command(words);
         if (!command) return usage_error(command.error().message);
         const auto answer = send_command(o, *command, cancelled_by_signal());

@@ -53,7 +53,7 @@ constexpr const char* kDdsKeysUsage =
     "state and command). Whoever has FOLDER/private can let anybody in: keep it elsewhere.\n\n";
 
 /// Returns the new folders, one per line.
-Result<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& words) {
+CliResult<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& words) {
   if (words.size() != 1 || words.front().empty()) {
     return usage_error("say which FOLDER to make keys in, and one only");
   }
@@ -75,7 +75,7 @@ Result<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& wo
 
 }  // namespace
 
-Result<std::string> dds_keys_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> dds_keys_command(const Arguments& arguments) {
   KeysOptions o;
   return run_command(arguments,
                      {.usage = kDdsKeysUsage, .options = declare(o), .takes_words = true},

@@ -60,8 +60,8 @@ std::string help() {
          exit_statuses_help();
 }
 
-Result<std::string> dispatch(const std::vector<std::string>& arguments) {
-  const std::string name = arguments.empty() ? "" : arguments.front();
+CliResult<std::string> dispatch(const Arguments& arguments) {
+  const std::string name = arguments.words.empty() ? "" : arguments.words.front();
   if (name == "--help" || name == "-h" || name == "help") return help();
   if (name == "--version") return version_text("orbwatch");
   const auto* const command = std::ranges::find(kCommandTable, name, &Subcommand::name);
@@ -87,5 +87,5 @@ std::string subcommands_help(std::span<const Subcommand> subcommands) {
 }  // namespace orbwatch::app
 
 int main(int argc, char** argv) {
-  return orbwatch::app::run_program("orbwatch", {argv + 1, argv + argc}, orbwatch::app::dispatch);
+  return orbwatch::app::run_program("orbwatch", {{argv + 1, argv + argc}}, orbwatch::app::dispatch);
 }

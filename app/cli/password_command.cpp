@@ -149,7 +149,7 @@ Result<std::string> set_password(const PasswordOptions& o, const std::string& na
 
 }  // namespace
 
-Result<std::string> password_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> password_command(const Arguments& arguments) {
   PasswordOptions o;
   const auto set_role = [&o](const std::string& word) -> Result<> {
     const auto role = web::parse_role(word);
@@ -167,7 +167,7 @@ Result<std::string> password_command(const std::vector<std::string>& arguments) 
                     set_role},
                    {"show", 0, "", "print fingerprint and code only", flag_option(o.show)}},
        .takes_words = true},
-      [&](const std::vector<std::string>& words) -> Result<std::string> {
+      [&](const std::vector<std::string>& words) -> CliResult<std::string> {
         if (words.size() > 1) return usage_error("say one NAME only");
         if (o.show) return show(o);
         return set_password(o, words.empty() ? std::string(web::kFirstUser) : words.front());

@@ -28,8 +28,8 @@ const std::atomic<bool>& cancelled_by_signal() {
   return cancelled;
 }
 
-int run_program(const char* name, const std::vector<std::string>& arguments,
-                Result<std::string> (*run)(const std::vector<std::string>& arguments)) try {
+int run_program(const char* name, const Arguments& arguments,
+                CliResult<std::string> (*run)(const Arguments& arguments)) try {
   // A command may run beside orbwatchd, and OpenCV's threads would occupy its cores.
   cv::setNumThreads(1);
   const auto text = run(arguments);
@@ -38,7 +38,7 @@ int run_program(const char* name, const std::vector<std::string>& arguments,
     return static_cast<int>(ExitStatus::Done);
   }
   std::fprintf(stderr, "%s: %s\n", name, text.error().message.c_str());
-  return static_cast<int>(error_status());
+  return static_cast<int>(text.error().status);
 } catch (const std::bad_alloc&) {
   std::fprintf(stderr, "%s: not enough memory for pictures of this size\n", name);
   return static_cast<int>(ExitStatus::Failed);

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "proc/image/result.h"
+#include "app/cli/cli_result.h"
 
 namespace orbwatch::app {
 
+struct Arguments;
+
 /// Body of main(): prints the result of `run` for the arguments, or its error after the program's
 /// name, and returns the exit status.
-int run_program(const char* name, const std::vector<std::string>& arguments,
-                Result<std::string> (*run)(const std::vector<std::string>& arguments));
+int run_program(const char* name, const Arguments& arguments,
+                CliResult<std::string> (*run)(const Arguments& arguments));
 
 }  // namespace orbwatch::app

@@ -81,8 +81,8 @@ std::vector<Option> declare(ProjectOptions& o) {
 }
 
 /// Assigns a lone picture to the only camera, or checks that every camera has a picture.
-Result<> assign_pictures(const std::vector<std::string>& alone,
-                         std::vector<ChosenCamera>& cameras) {
+CliResult<> assign_pictures(const std::vector<std::string>& alone,
+                            std::vector<ChosenCamera>& cameras) {
   if (cameras.size() == 1 && cameras.front().picture.empty()) {
     if (alone.size() != 1) return usage_error("give exactly one picture IN");
     cameras.front().picture = alone.front();
@@ -153,42 +153,52 @@ StillView merged(const ProjectOptions& o, const optics::ViewProjection& projecti
   return render_once({projection, format, Combine::Sharpest, o.interpolation, o.match}, sources);
 }
 
-Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
+CliResult<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
   if (o.camera_info.empty()) return {};
   const auto intrinsics = view.intrinsics();
   if (!intrinsics) return usage_error("--camera-info: only a perspective view has one");
-  return write_calibration(o.camera_info, *intrinsics, "view", CalibrationFormat::Ros);
+  const auto written =
+      write_calibration(o.camera_info, *intrinsics, "view", CalibrationFormat::Ros);
+  if (!written) return tl::unexpected(written.error());
+  return {};
 }
 
-Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone) {
+CliResult<std::string> project(const ProjectOptions& o, const std::vector<std::string>& alone) {
   if (o.output.empty()) return usage_error("-o OUT is missing");
   auto cameras = choose_cameras(o.cameras);
   if (!cameras) return tl::unexpected(cameras.error());
-  if (auto assigned = assign_pictures(alone, *cameras); !assigned) return assigned;
+  if (auto assigned = assign_pictures(alone, *cameras); !assigned) {
+    return tl::unexpected(assigned.error());
+  }
   const auto view = optics::ViewProjection::make(o.view, cameras->front().ball);
   if (!view) return tl::unexpected(view.error());
   Progress progress;
   const auto pictures = read_pictures(*cameras, progress);
   if (!pictures) return tl::unexpected(pictures.error());
   const PixelFormat format = pictures->front().picture.format;
-  if (auto named = check_picture_name(o.output, format, o.transparent); !named) return named;
+  if (auto named = check_picture_name(o.output, format, o.transparent); !named) {
+    return tl::unexpected(named.error());
+  }
 
   progress.begin("making the view");
   StillView still = merged(o, *view, *cameras, *pictures);
   progress.erase();
   report(still.matches, *cameras);
-  if (auto written = write_camera_info(o, *view); !written) return written;
+  if (auto written = write_camera_info(o, *view); !written) {
+    return tl::unexpected(written.error());
+  }
   return write_picture(o.output, still.picture,
-                       o.transparent ? still.validity_plane() : ImageView<std::uint8_t>{});
+                       o.transparent ? still.validity_plane() : ImageView<std::uint8_t>{})
+      .map([] { return std::string(); });
 }
 
 }  // namespace
 
-Result<std::string> project_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> project_command(const Arguments& arguments) {
   ProjectOptions o;
-  return run_command(
-      arguments, {.usage = kProjectUsage, .options = declare(o), .takes_words = true},
-      [&](const auto& alone) { return project(o, alone).map([] { return std::string(); }); });
+  return run_command(arguments,
+                     {.usage = kProjectUsage, .options = declare(o), .takes_words = true},
+                     [&](const auto& alone) { return project(o, alone); });
 }
 
 }  // namespace orbwatch::app

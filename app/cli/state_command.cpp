@@ -71,7 +71,7 @@ Result<> print_states(StateReader& reader, const StateOptions& o,
 
 }  // namespace
 
-Result<std::string> state_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> state_command(const Arguments& arguments) {
   StateOptions o;
   return run_command(
       arguments,

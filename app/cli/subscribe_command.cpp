@@ -38,7 +38,7 @@ constexpr const char* kSubscribeNotes =
     "topic, content, since_exposure_ms.\n";
 
 /// Reads topics and prints while reading.
-Result<std::string> read_topics(const SubscribeOptions& o) {
+CliResult<std::string> read_topics(const SubscribeOptions& o) {
   if (o.json && !o.stats && !o.each) return usage_error("--json needs --stats or --each");
   const auto reports = subscribe(o, cancelled_by_signal(), std::cout);
   if (!reports) return tl::unexpected(reports.error());
@@ -51,7 +51,7 @@ Result<std::string> read_topics(const SubscribeOptions& o) {
 
 }  // namespace
 
-Result<std::string> subscribe_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> subscribe_command(const Arguments& arguments) {
   SubscribeOptions o;
   return run_command(
       arguments,

@@ -59,7 +59,7 @@ std::vector<Option> declare(AdviseOptions& o) {
   };
 }
 
-Result<std::string> advise(const AdviseOptions& o) {
+CliResult<std::string> advise(const AdviseOptions& o) {
   const auto advice = align::advise(o.arrangement);
   if (!advice) return usage_error(advice.error().message);
   return o.json ? advise_json(*advice) : advise_text(o.arrangement, *advice);
@@ -67,7 +67,7 @@ Result<std::string> advise(const AdviseOptions& o) {
 
 }  // namespace
 
-Result<std::string> advise_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> advise_command(const Arguments& arguments) {
   AdviseOptions o;
   return run_command(arguments,
                      {.usage = kAdviseUsage, .options = declare(o), .notes = kAdviseNotes},

@@ -72,7 +72,7 @@ Result<std::string> bench(const BenchOptions& o) {
 
 }  // namespace
 
-Result<std::string> bench_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> bench_command(const Arguments& arguments) {
   BenchOptions o;
   return run_command(
       arguments,

@@ -113,7 +113,7 @@ Result<std::string> confirm(const fs::path& folder) {
   });
 }
 
-Result<std::string> run(Options o, const std::vector<std::string>& words) {
+CliResult<std::string> run(Options o, const std::vector<std::string>& words) {
   const bool is_named = !o.config.empty();
   o.config = fs::absolute(site_file(o.config)).lexically_normal();
   if (is_named) o.named = " --config " + o.config.string();
@@ -138,7 +138,7 @@ std::function<Result<>(const std::string&)> seconds_option(int& target) {
 
 }  // namespace
 
-Result<std::string> configure_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> configure_command(const Arguments& arguments) {
   Options o;
   return run_command(
       arguments,

@@ -170,7 +170,7 @@ std::string camera_json(const optics::RigCamera& camera, const Place& place) {
   return json.dump(2) + "\n";
 }
 
-Result<std::string> describe(const DescribeCameraOptions& o) {
+CliResult<std::string> describe(const DescribeCameraOptions& o) {
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (o.camera.empty()) return usage_error("--camera is missing");
   if (o.json && o.format) return usage_error("give --json or --format, not both");
@@ -192,7 +192,7 @@ Result<std::string> describe(const DescribeCameraOptions& o) {
 
 }  // namespace
 
-Result<std::string> describe_camera(const std::vector<std::string>& arguments) {
+CliResult<std::string> describe_camera(const Arguments& arguments) {
   DescribeCameraOptions o;
   return run_command(
       arguments,

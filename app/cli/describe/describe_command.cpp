@@ -15,13 +15,14 @@ namespace {
 
 /// Runs a subject that takes no options.
 template <std::string (*manual)()>
-Result<std::string> describe_manual(const std::vector<std::string>& arguments) {
+CliResult<std::string> describe_manual(const Arguments& arguments) {
   return run_command(
-      arguments, {.usage = "Usage: orbwatch describe " + arguments.front() + "\n\n", .options = {}},
+      arguments,
+      {.usage = "Usage: orbwatch describe " + arguments.words.front() + "\n\n", .options = {}},
       [](const auto&) { return manual(); });
 }
 
-Result<std::string> describe_registers(const std::vector<std::string>& arguments) {
+CliResult<std::string> describe_registers(const Arguments& arguments) {
   static constexpr std::array kFormats{Word{"markdown", false}, Word{"csv", true}};
   bool csv = false;
   return run_command(arguments,
@@ -54,15 +55,16 @@ std::string completion() { return bash_completion(all_commands(), kSubjects); }
 
 }  // namespace
 
-Result<std::string> describe_command(const std::vector<std::string>& arguments) {
-  const std::string name = arguments.size() > 1 ? arguments[1] : "";
+CliResult<std::string> describe_command(const Arguments& arguments) {
+  const std::vector<std::string>& words = arguments.words;
+  const std::string name = words.size() > 1 ? words[1] : "";
   if (name == "--help" || name == "-h") {
     return "Usage: orbwatch describe SUBJECT [options]\n\nPrints to standard output.\n\n" +
            subcommands_help(kSubjects) +
            "\n`orbwatch describe SUBJECT --help` explains its options.\n";
   }
   const auto* const subject = std::ranges::find(kSubjects, name, &Subcommand::name);
-  if (subject != kSubjects.end()) return subject->run({arguments.begin() + 1, arguments.end()});
+  if (subject != kSubjects.end()) return subject->run({{words.begin() + 1, words.end()}});
   std::string known;
   for (const Subcommand& s : kSubjects) known += (known.empty() ? "" : ", ") + std::string(s.name);
   return usage_error("say what to describe: " + known);

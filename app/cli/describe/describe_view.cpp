@@ -186,7 +186,7 @@ Result<> write_map(const std::filesystem::path& path, const std::vector<float>& 
                                                  row_bytes(PixelFormat::Y16, view.width())));
 }
 
-Result<std::string> describe(const DescribeViewOptions& o) {
+CliResult<std::string> describe(const DescribeViewOptions& o) {
   const auto cameras = choose_cameras(o.cameras);
   if (!cameras) return tl::unexpected(cameras.error());
   const auto view = optics::ViewProjection::make(o.view, cameras->front().ball);
@@ -217,7 +217,7 @@ Result<std::string> describe(const DescribeViewOptions& o) {
 
 }  // namespace
 
-Result<std::string> describe_view(const std::vector<std::string>& arguments) {
+CliResult<std::string> describe_view(const Arguments& arguments) {
   DescribeViewOptions o;
   return run_command(
       arguments,

@@ -97,12 +97,12 @@ Result<std::string> detect(const DetectOptions& o, const std::filesystem::path& 
 
 }  // namespace
 
-Result<std::string> detect_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> detect_command(const Arguments& arguments) {
   DetectOptions o;
   return run_command(
       arguments,
       {.usage = kDetectUsage, .options = declare(o), .takes_words = true, .notes = kDetectNotes},
-      [&](const auto& words) -> Result<std::string> {
+      [&](const auto& words) -> CliResult<std::string> {
         if (words.size() == 1) return detect(o, words.front());
         return usage_error("name one picture");
       });

@@ -23,7 +23,7 @@ Result<std::string> examine(const std::filesystem::path& file, bool json) {
 
 }  // namespace
 
-Result<std::string> doctor_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> doctor_command(const Arguments& arguments) {
   std::filesystem::path config;
   bool json = false;
   return run_command(

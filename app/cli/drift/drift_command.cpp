@@ -58,7 +58,7 @@ std::vector<Option> declare(DriftOptions& o) {
   };
 }
 
-Result<std::string> drift(DriftOptions o, const std::string& word) {
+CliResult<std::string> drift(DriftOptions o, const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || equals + 1 == word.size()) {
     return usage_error("\"" + word + "\" must be CAMERA=FOLDER");
@@ -80,12 +80,12 @@ Result<std::string> drift(DriftOptions o, const std::string& word) {
 
 }  // namespace
 
-Result<std::string> drift_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> drift_command(const Arguments& arguments) {
   DriftOptions o;
   return run_command(
       arguments,
       {.usage = kDriftUsage, .options = declare(o), .takes_words = true, .notes = kDriftNotes},
-      [&](const auto& words) -> Result<std::string> {
+      [&](const auto& words) -> CliResult<std::string> {
         if (words.size() == 1) return drift(o, words.front());
         return usage_error("name one CAMERA=FOLDER");
       });

@@ -58,7 +58,7 @@ Result<std::string> set_safe(const fs::path& file) {
 
 }  // namespace
 
-Result<std::string> lines_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> lines_command(const Arguments& arguments) {
   std::filesystem::path config;
   bool safe = false;
   return run_command(
@@ -70,7 +70,7 @@ Result<std::string> lines_command(const std::vector<std::string>& arguments) {
        .options = {{"safe", 0, "", "set all outputs inactive", flag_option(safe)},
                    {"config", 'c', "FILE", "that of orbwatchd (default: as orbwatchd)",
                     text_option(config)}}},
-      [&](const auto&) -> Result<std::string> {
+      [&](const auto&) -> CliResult<std::string> {
         if (!safe) return usage_error("say --safe");
         return set_safe(site_file(config));
       });

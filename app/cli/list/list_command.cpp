@@ -69,13 +69,13 @@ hal::Inventory take_inventory() {
   return inventory;
 }
 
-Result<std::string> list_devices(const ListOptions& o) {
+CliResult<std::string> list_devices(const ListOptions& o) {
   if (o.seconds) return usage_error("--seconds is of --appliances");
   const hal::Inventory inventory = take_inventory();
   return o.json ? list_json(inventory) : list_table(inventory);
 }
 
-Result<std::string> list_appliances(const ListOptions& o) {
+CliResult<std::string> list_appliances(const ListOptions& o) {
   const auto duration = std::chrono::ceil<std::chrono::milliseconds>(
       std::chrono::duration<double>(o.seconds.value_or(kUsualSeconds)));
   Fleet fleet;
@@ -92,7 +92,7 @@ Result<std::string> list_appliances(const ListOptions& o) {
 
 }  // namespace
 
-Result<std::string> list_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> list_command(const Arguments& arguments) {
   ListOptions o;
   return run_command(
       arguments,

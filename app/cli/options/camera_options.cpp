@@ -39,7 +39,7 @@ struct Named {
   std::string picture;
 };
 
-Result<> check_choice(const std::vector<std::string>& cameras) {
+CliResult<> check_choice(const std::vector<std::string>& cameras) {
   if (cameras.empty()) return usage_error("--rig needs at least one --camera");
   if (cameras.size() > remap::kMaxSources) {
     return usage_error(std::to_string(cameras.size()) + " cameras are given; at most " +
@@ -62,7 +62,7 @@ void replace_model(optics::BallModel::Kind model, optics::RigCamera& camera) {
   camera.distance.reset();
 }
 
-Result<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
+CliResult<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
   for (const auto& [given, name] : {std::pair{o.ball.has_value(), "--ball"},
                                     {o.alpha.has_value(), "--alpha"},
                                     {o.distance.has_value(), "--distance"},
@@ -91,7 +91,7 @@ Result<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
   return chosen;
 }
 
-Result<std::vector<ChosenCamera>> choose_described(const CameraOptions& o) {
+CliResult<std::vector<ChosenCamera>> choose_described(const CameraOptions& o) {
   if (!o.cameras.empty()) return usage_error("--camera needs --rig");
   if (!o.ball) return usage_error("--ball is missing (or --rig)");
   const auto kind = o.model.value_or(optics::BallModel::Kind::Exact);
@@ -135,7 +135,7 @@ std::vector<Option> camera_options(CameraOptions& o) {
   };
 }
 
-Result<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options) {
+CliResult<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options) {
   return options.rig.empty() ? choose_described(options) : choose_from_rig(options);
 }
 

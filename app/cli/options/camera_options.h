@@ -39,7 +39,7 @@ struct ChosenCamera {
 /// Returns the cameras in the order given, 1 to remap::kMaxSources. Errors: no camera, too many, a
 /// duplicate, an unknown one, --rig together with an option that it replaces, those of load_rig and
 /// optics::ball_projection.
-Result<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options);
+CliResult<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options);
 
 /// Refuses a picture whose size is not the rig's or that does not contain the ball.
 Result<> check_picture_size(const ChosenCamera& camera, const Size& picture);

@@ -9,7 +9,7 @@
 namespace orbwatch::app {
 
 /// Declaration that a command passes to run_command(), without running it; its options must not be
-/// set. Nullopt: it takes no options. Thread-bound.
+/// set. Nullopt: it takes no options.
 std::optional<CommandLine> declaration_of(const Subcommand& command);
 
 }  // namespace orbwatch::app

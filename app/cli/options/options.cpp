@@ -15,15 +15,9 @@ namespace {
 
 constexpr int kFirstLong = 1000;
 
-/// Destination of a command line that declaration_of() requests instead of a run.
-std::optional<CommandLine>* asked_declaration = nullptr;
-
-/// Exit status of the error that was returned last.
-ExitStatus last_error_status = ExitStatus::Failed;
-
 /// Calls the options' set(); returns the arguments that are not options.
-Result<std::vector<std::string>> parse(std::vector<std::string> arguments,
-                                       const std::vector<Option>& options, OptionOrder order) {
+CliResult<std::vector<std::string>> parse(std::vector<std::string> arguments,
+                                          const std::vector<Option>& options, OptionOrder order) {
   std::vector<option> table;
   table.reserve(options.size() + 1);
   // The colon makes getopt leave the reporting of errors to this function.
@@ -48,7 +42,9 @@ Result<std::vector<std::string>> parse(std::vector<std::string> arguments,
     const auto chosen = std::find_if(options.begin(), options.end(), [&](const Option& o) {
       return o.letter == found || kFirstLong + (&o - options.data()) == found;
     });
-    if (auto set = chosen->set(optarg ? optarg : ""); !set) return tl::unexpected(set.error());
+    if (auto set = chosen->set(optarg ? optarg : ""); !set) {
+      return tl::unexpected(CliError(set.error().message, ExitStatus::WrongUsage));
+    }
   }
   return std::vector<std::string>(argv.begin() + optind, argv.begin() + argc);
 }
@@ -71,39 +67,28 @@ std::string options_help(const std::vector<Option>& options) {
 
 }  // namespace
 
-Result<std::string> run_command(
-    std::vector<std::string> arguments, CommandLine line,
-    const std::function<Result<std::string>(const std::vector<std::string>& words)>& run) {
+CliResult<std::string> run_command(
+    const Arguments& arguments, CommandLine line,
+    const std::function<CliResult<std::string>(const std::vector<std::string>& words)>& run) {
   bool asks_help = false;
   line.options.push_back({"help", 'h', "", "this text", flag_option(asks_help)});
-  if (asked_declaration != nullptr) {
-    *asked_declaration = std::move(line);
+  if (arguments.declaration != nullptr) {
+    *arguments.declaration = std::move(line);
     return std::string();
   }
-  last_error_status = ExitStatus::WrongUsage;
-  const auto words = parse(std::move(arguments), line.options, line.order);
+  const auto words = parse(arguments.words, line.options, line.order);
   if (!words) return tl::unexpected(words.error());
   if (asks_help) return line.usage + options_help(line.options) + line.notes;
   if (!words->empty() && !line.takes_words) {
     return usage_error("unexpected argument " + words->front());
   }
-  last_error_status = ExitStatus::Failed;
   return run(*words);
 }
 
-tl::unexpected<Error> usage_error(const std::string& what) {
-  last_error_status = ExitStatus::WrongUsage;
-  return fail(what + "; see --help");
-}
-
-ExitStatus error_status() { return last_error_status; }
-
 std::optional<CommandLine> declaration_of(const Subcommand& command) {
   std::optional<CommandLine> declared;
-  asked_declaration = &declared;
   // A command without options prints or refuses; its result is dropped.
-  static_cast<void>(command.run({std::string(command.name)}));
-  asked_declaration = nullptr;
+  static_cast<void>(command.run({{std::string(command.name)}, &declared}));
   return declared;
 }
 

@@ -3,11 +3,12 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/exit_status.h"
+#include "app/cli/cli_result.h"
 #include "proc/image/result.h"
 #include "proc/settings/settings.h"
 
@@ -37,19 +38,19 @@ struct CommandLine {
   std::string notes{};  ///< printed by --help after the options
 };
 
-/// Parses `arguments` (the command's name first), calls the options' set(), and returns the result
-/// of `run` for the arguments that are not options; or the help. Errors: unknown option, missing
-/// value, unexpected argument, those of set() and `run`.
-Result<std::string> run_command(
-    std::vector<std::string> arguments, CommandLine line,
-    const std::function<Result<std::string>(const std::vector<std::string>& words)>& run);
+/// Arguments of a command.
+struct Arguments {
+  std::vector<std::string> words;  ///< its name first
+  /// Set: run_command() stores the declaration there and does nothing else.
+  std::optional<CommandLine>* declaration = nullptr;
+};
 
-/// Error of a command whose options or arguments are wrong: `what`, and a reference to the help. It
-/// ends with ExitStatus::WrongUsage, like those of run_command() itself and of set(). Thread-bound.
-tl::unexpected<Error> usage_error(const std::string& what);
-
-/// Exit status for the error that a command returned last. Thread-bound.
-ExitStatus error_status();
+/// Parses the arguments, calls the options' set(), and returns the result of `run` for the words
+/// that are not options; or the help. Errors: unknown option, missing value, unexpected argument
+/// and those of set(), which are of WrongUsage; those of `run`. Thread-bound: it uses getopt(3).
+CliResult<std::string> run_command(
+    const Arguments& arguments, CommandLine line,
+    const std::function<CliResult<std::string>(const std::vector<std::string>& words)>& run);
 
 /// Parses `text` as a finite number. The error names the option `name`.
 Result<double> parse_number(std::string_view name, std::string_view text);

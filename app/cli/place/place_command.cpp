@@ -55,7 +55,7 @@ constexpr const char* kPlaceNotes =
     "z],\n"
     "pixel [u, v], residual [u, v] marked minus shown in px (null: not shown), outlier}]}].\n";
 
-Result<std::string> place(const PlaceOptions& o) {
+CliResult<std::string> place(const PlaceOptions& o) {
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (o.cameras.empty()) return usage_error("--camera is missing");
   const auto rig = load_rig(o.rig);
@@ -79,7 +79,7 @@ Result<std::string> place(const PlaceOptions& o) {
 
 }  // namespace
 
-Result<std::string> place_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> place_command(const Arguments& arguments) {
   PlaceOptions o;
   return run_command(arguments,
                      {.usage = kPlaceUsage, .options = place_options(o), .notes = kPlaceNotes},

@@ -26,7 +26,7 @@ std::function<Result<>(const std::string&)> of_camera(
     PlaceOptions& o, std::string name,
     std::function<Result<>(PlaceCameraOptions&, const std::string&)> set) {
   return [&o, name = std::move(name), set = std::move(set)](const std::string& value) -> Result<> {
-    if (o.cameras.empty()) return usage_error("--" + name + " needs a --camera before it");
+    if (o.cameras.empty()) return fail("--" + name + " needs a --camera before it; see --help");
     return set(o.cameras.back(), value);
   };
 }

@@ -98,8 +98,8 @@ Result<> add_camera(const PlaceOptions& o, const PlaceCameraOptions& options,
 
 }  // namespace
 
-Result<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& rig,
-                                   Progress& progress) {
+CliResult<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& rig,
+                                      Progress& progress) {
   const auto has_image = [](const PlaceCameraOptions& camera) { return !camera.image.empty(); };
   if (!o.tags.empty() && std::ranges::none_of(o.cameras, has_image)) {
     return usage_error("tags are found in pictures: give --image after its --camera");

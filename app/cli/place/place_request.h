@@ -12,7 +12,7 @@ namespace orbwatch::app {
 /// and the tags, and outlines that it lacks, as pictures show them. Points with the same
 /// coordinates are one point. Error: unknown cameras, no lens, no outline, pictures that cannot be
 /// read, are of another size or show no ball for sure.
-Result<align::PlaceRequest> place_request(const PlaceOptions& options, const optics::Rig& rig,
-                                          Progress& progress);
+CliResult<align::PlaceRequest> place_request(const PlaceOptions& options, const optics::Rig& rig,
+                                             Progress& progress);
 
 }  // namespace orbwatch::app

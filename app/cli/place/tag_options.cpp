@@ -29,10 +29,9 @@ Result<PrintedTag> parse_tag(const std::string& text) {
   const auto numbers =
       parse_numbers("tag", equals == std::string::npos ? "" : text.substr(equals + 1));
   if (!id || !numbers || (numbers->size() != 12 && numbers->size() != 10)) {
-    return usage_error(
-        "--tag is \"" + text +
-        "\"; it must be ID= and its four corners, or its size, centre, and directions to "
-        "the right and down");
+    return fail("--tag is \"" + text +
+                "\"; it must be ID= and its four corners, or its size, centre, and directions to "
+                "the right and down; see --help");
   }
   if (*id < 0 || *id >= align::kTagIds) {
     return fail("tag " + std::to_string(*id) + ": the family 36h11 has 0 to " +

@@ -13,7 +13,7 @@ std::vector<Picture> NamedPictures::views() const {
   return all;
 }
 
-Result<NamedPictures> read_named_pictures(const std::string& word) {
+CliResult<NamedPictures> read_named_pictures(const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == word.size()) {
     return usage_error("\"" + word + "\" is not CAMERA=PATH");

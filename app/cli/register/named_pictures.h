@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/cli_result.h"
 #include "hal/replay/picture_decoder.h"
-#include "proc/image/result.h"
 
 namespace orbwatch::app {
 
@@ -20,7 +20,7 @@ struct NamedPictures {
 
 /// PATH is a picture, or a folder: its first kMostPictures pictures in natural order. Error: no
 /// NAME=PATH, no picture there, one that cannot be read or is of another size.
-Result<NamedPictures> read_named_pictures(const std::string& word);
+CliResult<NamedPictures> read_named_pictures(const std::string& word);
 
 inline constexpr std::size_t kMostPictures = 120;
 

@@ -101,8 +101,8 @@ Result<RegistrationSettings> settings_for(const RegisterOptions& o, const NamedP
   return settings;
 }
 
-Result<std::string> register_cameras(const RegisterOptions& o, const std::string& first,
-                                     const std::string& second) {
+CliResult<std::string> register_cameras(const RegisterOptions& o, const std::string& first,
+                                        const std::string& second) {
   if (o.rig.empty()) return usage_error("--rig is missing");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
@@ -132,14 +132,14 @@ Result<std::string> register_cameras(const RegisterOptions& o, const std::string
 
 }  // namespace
 
-Result<std::string> register_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> register_command(const Arguments& arguments) {
   RegisterOptions o;
   return run_command(arguments,
                      {.usage = kRegisterUsage,
                       .options = declare(o),
                       .takes_words = true,
                       .notes = kRegisterNotes},
-                     [&](const auto& words) -> Result<std::string> {
+                     [&](const auto& words) -> CliResult<std::string> {
                        if (words.size() == 2) return register_cameras(o, words[0], words[1]);
                        return usage_error("name two cameras with their pictures, A=PATH B=PATH");
                      });

@@ -109,22 +109,22 @@ Result<std::string> said(const SetupOptions& o, const Setup& setup) {
   return fail("left out of merged and measured views: " + names);
 }
 
-Result<std::string> set_up(const SetupOptions& o) {
+CliResult<std::string> set_up(const SetupOptions& o) {
   if (o.folder.empty()) return usage_error("give the site's folder, -o DIR");
   Setup setup;
   Progress progress;
-  return check_place(o.folder, o.force)
-      .and_then([&] { return read_machine(o, setup); })
-      .and_then([&] { return record_cameras(o, setup, progress); })
-      .and_then([&] { return read_cameras(o, setup); })
-      .and_then([&] { return align_cameras(setup, o.folder, progress); })
+  if (auto free = check_place(o.folder, o.force); !free) return tl::unexpected(free.error());
+  if (auto read = read_machine(o, setup); !read) return tl::unexpected(read.error());
+  if (auto done = record_cameras(o, setup, progress); !done) return tl::unexpected(done.error());
+  if (auto read = read_cameras(o, setup); !read) return tl::unexpected(read.error());
+  return align_cameras(setup, o.folder, progress)
       .and_then([&] { return place_site(setup, o.folder); })
       .and_then([&] { return said(o, setup); });
 }
 
 }  // namespace
 
-Result<std::string> setup_command(const std::vector<std::string>& arguments) {
+CliResult<std::string> setup_command(const Arguments& arguments) {
   SetupOptions o;
   return run_command(arguments,
                      {.usage = kSetupUsage, .options = setup_options(o), .notes = kSetupNotes},

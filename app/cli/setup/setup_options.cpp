@@ -21,8 +21,8 @@ std::pair<std::string, std::string> named(const std::string& word, const std::st
   return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
-Result<std::vector<double>> numbers(const char* option, const std::string& text,
-                                    std::size_t count) {
+CliResult<std::vector<double>> numbers(const char* option, const std::string& text,
+                                       std::size_t count) {
   auto values = parse_numbers(option, text);
   if (values && values->size() != count) {
     return usage_error(std::string("--") + option + " has " + std::to_string(values->size()) +
@@ -35,14 +35,14 @@ optics::Vec3 vector(const std::vector<double>& v, std::size_t at) {
   return {v[at], v[at + 1], v[at + 2]};
 }
 
-Result<optics::Box> box(const char* option, const std::string& text) {
+CliResult<optics::Box> box(const char* option, const std::string& text) {
   return numbers(option, text, 6).map([](const auto& v) {
     return optics::Box{vector(v, 0), vector(v, 3)};
   });
 }
 
 /// The camera that an option's value is for.
-Result<SetupCamera*> camera_of(Setup& setup, const char* option, const std::string& name) {
+CliResult<SetupCamera*> camera_of(Setup& setup, const char* option, const std::string& name) {
   if (name.empty() && setup.cameras.size() == 1) return &setup.cameras.front();
   const auto found = std::ranges::find(setup.cameras, name, &SetupCamera::name);
   if (found != setup.cameras.end()) return &*found;
@@ -55,7 +55,7 @@ Result<SetupCamera*> camera_of(Setup& setup, const char* option, const std::stri
       "; there are: " + names);
 }
 
-Result<> read_calibration_of(SetupCamera& camera, const std::string& file) {
+CliResult<> read_calibration_of(SetupCamera& camera, const std::string& file) {
   TextFiles files;
   const auto lens = read_calibration(file, files);
   if (!lens) return tl::unexpected(lens.error());
@@ -70,7 +70,7 @@ Result<> read_calibration_of(SetupCamera& camera, const std::string& file) {
   return {};
 }
 
-Result<> read_pose_of(SetupCamera& camera, const std::string& text) {
+CliResult<> read_pose_of(SetupCamera& camera, const std::string& text) {
   const auto v = numbers("pose", text, 12);
   if (!v) return tl::unexpected(v.error());
   const auto rotation = optics::checked_rotation({vector(*v, 3), vector(*v, 6), vector(*v, 9)});
@@ -79,7 +79,7 @@ Result<> read_pose_of(SetupCamera& camera, const std::string& text) {
   return {};
 }
 
-Result<> read_distance_of(SetupCamera& camera, const std::string& text) {
+CliResult<> read_distance_of(SetupCamera& camera, const std::string& text) {
   const auto mm = parse_number("distance", text);
   if (!mm) return tl::unexpected(mm.error());
   if (!(*mm > 0)) return usage_error("--distance is " + text + "; it must be above 0 mm");
@@ -88,8 +88,8 @@ Result<> read_distance_of(SetupCamera& camera, const std::string& text) {
 }
 
 /// Applies each of an option's values to its camera.
-Result<> for_cameras(Setup& setup, const char* option, const std::vector<std::string>& words,
-                     Result<> (*read)(SetupCamera&, const std::string&)) {
+CliResult<> for_cameras(Setup& setup, const char* option, const std::vector<std::string>& words,
+                        CliResult<> (*read)(SetupCamera&, const std::string&)) {
   for (const std::string& word : words) {
     const auto [name, value] = named(word, "");
     const auto camera = camera_of(setup, option, name);
@@ -100,7 +100,7 @@ Result<> for_cameras(Setup& setup, const char* option, const std::vector<std::st
 }
 
 /// Error: a camera would stand in the ball.
-Result<> check_distances(const Setup& setup) {
+CliResult<> check_distances(const Setup& setup) {
   for (const SetupCamera& camera : setup.cameras) {
     if (!camera.distance || *camera.distance > setup.ball_radius) continue;
     std::ostringstream text;
@@ -141,7 +141,7 @@ std::vector<Option> setup_options(SetupOptions& o) {
   };
 }
 
-Result<> read_machine(const SetupOptions& o, Setup& setup) {
+CliResult<> read_machine(const SetupOptions& o, Setup& setup) {
   if (!(o.ball_diameter > 0)) return usage_error("give --ball-diameter, above 0 mm");
   setup.ball_radius = o.ball_diameter / 2;
   if (!o.ball_centre.empty()) {
@@ -169,7 +169,7 @@ Result<> read_machine(const SetupOptions& o, Setup& setup) {
   return {};
 }
 
-Result<> read_cameras(const SetupOptions& o, Setup& setup) {
+CliResult<> read_cameras(const SetupOptions& o, Setup& setup) {
   return for_cameras(setup, "calibration", o.calibrations, read_calibration_of)
       .and_then([&] { return for_cameras(setup, "pose", o.poses, read_pose_of); })
       .and_then([&] { return for_cameras(setup, "distance", o.distances, read_distance_of); })

@@ -25,10 +25,10 @@ struct SetupOptions {
 std::vector<Option> setup_options(SetupOptions& options);
 
 /// Reads the options about ball and machine. Error: a missing or impossible value.
-Result<> read_machine(const SetupOptions& options, Setup& setup);
+CliResult<> read_machine(const SetupOptions& options, Setup& setup);
 
 /// Reads the options about the cameras of `setup`, which have their names and records. Error: also
 /// an option for no camera.
-Result<> read_cameras(const SetupOptions& options, Setup& setup);
+CliResult<> read_cameras(const SetupOptions& options, Setup& setup);
 
 }  // namespace orbwatch::app
