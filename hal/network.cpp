@@ -55,6 +55,11 @@ bool is_loopback(const HostAddress& host) {
   return any_contains(kLoopback, host);
 }
 
+bool is_loopback(const std::string& text) {
+  const auto host = parse_host(text);
+  return host && is_loopback(*host);
+}
+
 bool Network::contains(const HostAddress& host) const {
   for (std::size_t i = 0; i < host.size(); ++i) {
     if ((host[i] ^ address[i]) & mask_of(prefix_length, i)) return false;

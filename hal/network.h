@@ -30,6 +30,8 @@ bool is_v4(const HostAddress& host);
 
 /// True for 127.0.0.0/8 and ::1.
 bool is_loopback(const HostAddress& host);
+/// The same for a numeric text; false for any other text.
+bool is_loopback(const std::string& text);
 
 /// One host, or all hosts of a CIDR prefix (RFC 4632, RFC 4291).
 struct Network {

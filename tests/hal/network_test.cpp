@@ -67,10 +67,13 @@ TEST(HostAddress, IsWrittenAsItIsRead) {
 TEST(HostAddress, IsLoopbackOfEitherProtocol) {
   for (const char* own : {"127.0.0.1", "127.8.8.8", "::1", "::ffff:127.0.0.1"}) {
     EXPECT_TRUE(is_loopback(host(own))) << own;
+    EXPECT_TRUE(is_loopback(std::string(own))) << own;
   }
   for (const char* other : {"0.0.0.0", "::", "10.0.0.1", "128.0.0.1", "::2", "::127.0.0.1"}) {
     EXPECT_FALSE(is_loopback(host(other))) << other;
+    EXPECT_FALSE(is_loopback(std::string(other))) << other;
   }
+  EXPECT_FALSE(is_loopback(std::string("localhost")));
 }
 
 TEST(HostAddress, IsOfOneProtocol) {

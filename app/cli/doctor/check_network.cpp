@@ -4,7 +4,7 @@
 
 #include "app/cli/doctor/checks.h"
 #include "app/cli/doctor/packet_filter.h"
-#include "app/ports/web/http/address.h"
+#include "hal/network.h"
 
 /// Checks of ports, buffers and packet filter.
 namespace orbwatch::app::doctor {
@@ -73,7 +73,7 @@ Diagnoses nft_diagnoses(const Facts& facts, const PacketFilter& filter) {
     found.push_back(is_named ? ok(who + ": a rule names " + ports) : filtered(who, chain, ports));
   };
   for (const PortFacts& port : facts.ports) {
-    if (web::is_loopback(port.address)) continue;
+    if (hal::is_loopback(port.address)) continue;
     add(port.key, "tcp dport " + std::to_string(port.port), names_port(filter.tcp, port.port));
   }
   if (facts.site && std::get<DdsSettings>(facts.site->sinks).enabled) {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "app/log.h"
-#include "app/ports/web/http/address.h"
 #include "app/ports/web/tls/redirect.h"
 #include "hal/host.h"
+#include "hal/network.h"
 #include "hal/synchronised_clock.h"
 
 namespace orbwatch::app::web {
@@ -113,7 +113,7 @@ void Listeners::renew() {
 void Listeners::serve_http(const ExchangePtr& exchange) const {
   const auto https = https_port_of(settings_);
   const Request& request = exchange->request();
-  const bool is_here = request.passage == Passage::Direct && is_loopback(request.peer);
+  const bool is_here = request.passage == Passage::Direct && hal::is_loopback(request.peer);
   if (!https || is_here || request.passage == Passage::TrustedProxy) return handler_(exchange);
   const int open = https_port_;
   exchange->answer(to_https(request, open > 0 ? open : *https));

@@ -17,9 +17,9 @@
 #include "app/model/sink.h"
 #include "app/model/status_report.h"
 #include "app/pictures/jpeg_quality.h"
-#include "app/ports/web/http/address.h"
 #include "hal/host.h"
 #include "hal/network.h"
+#include "hal/socket_address.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/settings/settings.h"
 
@@ -70,7 +70,7 @@ struct WebSettings {
 /// Addresses for HTTP; an address in a single network is complemented by loopback for this
 /// computer's own programs.
 inline std::vector<std::string> http_addresses_of(const WebSettings& web) {
-  if (hal::is_unspecified(web.address) || web::is_loopback(web.address)) return {web.address};
+  if (hal::is_unspecified(web.address) || hal::is_loopback(web.address)) return {web.address};
   return {web.address, web.address.find(':') == std::string::npos ? "127.0.0.1" : "::1"};
 }
 
@@ -78,7 +78,7 @@ inline std::vector<std::string> http_addresses_of(const WebSettings& web) {
 /// served.
 inline std::optional<int> https_port_of(const WebSettings& web) {
   constexpr int kHttpsPort = 8443;
-  const bool is_needed = !web::is_loopback(web.address) || !web.certificate.empty();
+  const bool is_needed = !hal::is_loopback(web.address) || !web.certificate.empty();
   return web.https_port || !is_needed ? web.https_port : kHttpsPort;
 }
 
@@ -101,7 +101,7 @@ void visit(Visitor& v, WebSettings& web) {
   v.optional("enabled", web.enabled, "Serve the page and the HTTP interface");
   v.optional("address", web.address,
              "Numeric address to listen on; 0.0.0.0 or :: for every network, then over HTTPS only");
-  v.require(web::parse_address(web.address, 0).has_value(), "address",
+  v.require(hal::parse_address(web.address, 0).has_value(), "address",
             "is not a numeric address such as 192.168.1.20, 0.0.0.0 or ::1");
   v.optional("port", web.port, Range::between(0, 65535),
              "HTTP port, served to this computer only; other clients are redirected to HTTPS. 0: "
@@ -149,10 +149,10 @@ void visit(Visitor& v, WebSettings& web) {
 inline std::string commanders(const WebSettings& settings) {
   if (!settings.enabled) return "";
   std::string where = "over HTTP from this host";
-  if (!web::is_loopback(settings.address)) where += " and over HTTPS on " + settings.address;
+  if (!hal::is_loopback(settings.address)) where += " and over HTTPS on " + settings.address;
   if (!settings.trusted_proxies.empty()) {
     where += " and through trusted proxies";
-  } else if (web::is_loopback(settings.address)) {
+  } else if (hal::is_loopback(settings.address)) {
     where += " only";
   }
   return where + ", by role once there are users";
@@ -161,7 +161,7 @@ inline std::string commanders(const WebSettings& settings) {
 /// The page for other computers; without an address: it is off, or for its own computer only.
 inline PageAddress page_address(const WebSettings& settings) {
   const auto port = https_port_of(settings);
-  if (!settings.enabled || !port || web::is_loopback(settings.address)) return {};
+  if (!settings.enabled || !port || hal::is_loopback(settings.address)) return {};
   return {settings.address, static_cast<std::uint16_t>(*port)};
 }
 

@@ -12,6 +12,7 @@
 #include "app/ports/web/access/kept_logins.h"
 #include "app/ports/web/access/secret.h"
 #include "app/ports/web/http/address.h"
+#include "hal/network.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -206,7 +207,7 @@ Caller Access::caller(const Credentials& credentials) {
       return user ? Caller{user->name, user->role} : Caller{};
     }
   }
-  const bool is_trusted = is_loopback(credentials.peer) && may_trust();
+  const bool is_trusted = hal::is_loopback(credentials.peer) && may_trust();
   return {"", is_trusted ? Role::Administrator : Role::Nobody};
 }
 

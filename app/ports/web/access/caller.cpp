@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "app/ports/web/http/address.h"
+#include "hal/network.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -44,7 +44,7 @@ std::string_view session_cookie(const Request& request) {
 }
 
 std::string client_address(const Request& request) {
-  const bool is_address = request.passage == Passage::Direct || !is_loopback(request.peer);
+  const bool is_address = request.passage == Passage::Direct || !hal::is_loopback(request.peer);
   return is_address ? request.peer : request.peer + " (by proxy)";
 }
 

@@ -2,13 +2,13 @@
 #include "app/ports/web/http/address.h"
 
 #include <arpa/inet.h>
-#include <netdb.h>
 #include <netinet/in.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
+
+#include "hal/network.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -31,56 +31,12 @@ bool equal_in_any_case(std::string_view a, std::string_view b) {
       a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-std::optional<SocketAddress> parse_address(const std::string& text, int port) {
-  addrinfo hints{};
-  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (text.empty() ||
-      ::getaddrinfo(text.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
-    return std::nullopt;
-  }
-  SocketAddress address;
-  std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
-  address.length = found->ai_addrlen;
-  ::freeaddrinfo(found);
-  return address;
-}
-
-std::string host_text(const sockaddr* address) {
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  if (address->sa_family == AF_INET) {
-    sockaddr_in v4;
-    std::memcpy(&v4, address, sizeof v4);
-    ::inet_ntop(AF_INET, &v4.sin_addr, text.data(), text.size());
-  } else if (address->sa_family == AF_INET6) {
-    sockaddr_in6 v6;
-    std::memcpy(&v6, address, sizeof v6);
-    constexpr std::size_t kMappedPrefix = 12;
-    if (IN6_IS_ADDR_V4MAPPED(&v6.sin6_addr)) {
-      ::inet_ntop(AF_INET, v6.sin6_addr.s6_addr + kMappedPrefix, text.data(), text.size());
-    } else {
-      ::inet_ntop(AF_INET6, &v6.sin6_addr, text.data(), text.size());
-    }
-  }
-  return text.data();
-}
-
-bool is_loopback(const std::string& host) {
-  const auto address = parse_address(host, 0);
-  if (!address) return false;
-  const std::string plain = host_text(address->get());
-  return plain.starts_with("127.") || plain == "::1";
-}
-
 std::string address_key(const std::string& peer) {
-  in6_addr address{};
-  if (::inet_pton(AF_INET6, peer.c_str(), &address) != 1) return peer;
+  auto address = hal::parse_host(peer);
+  if (!address || hal::is_v4(*address)) return peer;
   constexpr std::size_t kNetworkBytes = 8;
-  std::fill(std::begin(address.s6_addr) + kNetworkBytes, std::end(address.s6_addr), 0);
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  ::inet_ntop(AF_INET6, &address, text.data(), text.size());
-  return std::string(text.data()) + "/64";
+  std::fill(address->begin() + kNetworkBytes, address->end(), 0);
+  return hal::text_of(*address) + "/64";
 }
 
 std::optional<std::string_view> host_in(std::string_view header) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/socket.h>
-
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,25 +8,6 @@
 
 /// Addresses and names of hosts. All reentrant; none waits for a name server.
 namespace orbwatch::app::web {
-
-/// An address of a socket in the form of system calls.
-struct SocketAddress {
-  sockaddr_storage storage{};
-  socklen_t length = sizeof(sockaddr_storage);
-
-  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
-  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
-};
-
-/// Parses a numeric IPv4 or IPv6 address.
-std::optional<SocketAddress> parse_address(const std::string& text, int port);
-
-/// Numeric text of an address, with an IPv4 address mapped into IPv6 (::ffff:a.b.c.d) as IPv4:
-/// 10.0.0.7, fd00::1. Empty for other families.
-std::string host_text(const sockaddr* address);
-
-/// Returns whether `host` is a numeric loopback address: 127.0.0.0/8 or ::1.
-bool is_loopback(const std::string& host);
 
 /// Key for counting an address; an IPv6 address counts as its /64 network, because one host may use
 /// every address of it.

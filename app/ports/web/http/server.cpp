@@ -18,6 +18,7 @@
 #include "app/ports/web/http/address.h"
 #include "app/ports/web/http/forwarding.h"
 #include "app/ports/web/http/reply.h"
+#include "hal/socket_address.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -116,7 +117,7 @@ void Server::Callbacks::connection(void* self, MHD_Connection* connection, void*
       ::MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS)->client_addr;
   set_option(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsentBytes);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
-  const std::string host = host_text(peer);
+  const std::string host = hal::text_of(hal::SocketAddress(peer).host());
   // A proxy's connections belong to its clients, and count for them with each request.
   const std::size_t most = is_trusted(host, server.own_.trusted_proxies)
                                ? std::numeric_limits<std::size_t>::max()
@@ -263,10 +264,10 @@ Result<> Server::listen() {
   auto trusted = hal::parse_networks(settings_.trusted_proxies);
   if (!trusted) return fail("web: trusted_proxies: " + trusted.error().message);
   own_ = {settings_.names, std::move(*trusted)};
-  auto address = parse_address(endpoint_.address, endpoint_.port);
+  const auto address = hal::parse_address(endpoint_.address, endpoint_.port);
   const std::string where = endpoint_.address + " port " + std::to_string(endpoint_.port);
   if (!address) return fail("web: " + where + ": is not a numeric address");
-  const bool is_v6 = address->get()->sa_family == AF_INET6, is_secure = endpoint_.pem.has_value();
+  const bool is_v6 = address->family() == AF_INET6, is_secure = endpoint_.pem.has_value();
   const unsigned flags =
       static_cast<unsigned>(MHD_USE_EPOLL_INTERNAL_THREAD) | static_cast<unsigned>(MHD_USE_ITC) |
       static_cast<unsigned>(MHD_ALLOW_SUSPEND_RESUME) | static_cast<unsigned>(MHD_USE_ERROR_LOG) |

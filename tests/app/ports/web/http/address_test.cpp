@@ -22,22 +22,5 @@ TEST(OwnHost, IsAnAddressLocalhostOrAName) {
   EXPECT_FALSE(is_own_host(std::string_view("127.0.0.1\0.evil.example", 23), names));
 }
 
-TEST(Loopback, IsThisComputerOnly) {
-  for (const char* own : {"127.0.0.1", "127.8.8.8", "::1", "::ffff:127.0.0.1"}) {
-    EXPECT_TRUE(is_loopback(own)) << own;
-  }
-  for (const char* other : {"", "0.0.0.0", "::", "10.0.0.1", "localhost", "::ffff:10.0.0.1"}) {
-    EXPECT_FALSE(is_loopback(other)) << other;
-  }
-}
-
-TEST(HostText, IsAsNumbersAreWritten) {
-  for (const char* text : {"10.0.0.7", "fd00::1"}) {
-    EXPECT_EQ(host_text(parse_address(text, 80)->get()), text);
-  }
-  EXPECT_EQ(host_text(parse_address("::ffff:10.0.0.7", 80)->get()), "10.0.0.7");
-  EXPECT_FALSE(parse_address("ball.example", 80));
-}
-
 }  // namespace
 }  // namespace orbwatch::app::web
