@@ -13,24 +13,11 @@
 #include "app/model/interface_metric.h"
 #include "app/model/sink.h"
 #include "app/model/status_report.h"
+#include "app/ports/console/console_settings.h"
 #include "app/ports/console/waitless_output.h"
 #include "hal/thread/thread.h"
-#include "proc/settings/settings.h"
 
 namespace orbwatch::app {
-
-struct ConsoleSettings {
-  static constexpr std::string_view kName = "console", kText = "Status figures on standard output";
-
-  bool enabled = false;
-  double period = 1;  ///< s
-};
-
-template <class Visitor>
-void visit(Visitor& v, ConsoleSettings& console) {
-  v.optional("enabled", console.enabled, "Print the status to standard output");
-  v.optional("period", console.period, Range::between(0.1, 3600), "Interval between two prints, s");
-}
 
 #define ORBWATCH_CONSOLE_FIGURES(FIELD) \
   FIELD(std::uint64_t, dropped, kCount, "Prints dropped because standard output was not read")
@@ -74,7 +61,5 @@ class ConsoleSink final : public Sink {
   Status status_;
   hal::Thread thread_;
 };
-
-std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const StatusNames& names);
 
 }  // namespace orbwatch::app

@@ -6,33 +6,17 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "app/model/command.h"
 #include "app/model/sink.h"
-#include "hal/thread/bounded_queue.h"
+#include "app/ports/snapshot/snapshot_settings.h"
 #include "hal/thread/thread.h"
-#include "proc/settings/settings.h"
 
 namespace orbwatch::app {
-
-struct SnapshotSettings {
-  static constexpr std::string_view kName = "snapshot", kText = "Pictures on command";
-
-  std::filesystem::path folder;  ///< empty: there are no snapshots
-  int keep = 100;                ///< snapshots on the disk
-};
-
-template <class Visitor>
-void visit(Visitor& v, SnapshotSettings& snapshot) {
-  v.required("folder", snapshot.folder, "Folder for the PNG pictures of the command snapshot");
-  v.optional("keep", snapshot.keep, Range::between(1, 100000),
-             "Number of snapshots kept; a further one deletes the oldest");
-}
 
 /// Writes a view's next picture as PNG on request, on a separate thread:
 /// VIEW_YYYYMMDDTHHMMSS.mmmZ_FRAMESET.png by the UTC of its exposure. A raw measured plane is
@@ -66,7 +50,10 @@ class SnapshotSink final : public Sink {
   std::uint64_t written() const { return written_; }
 
  private:
+  void run();
+  ViewPtr next();
   void write_all();
+  void log_dropped();
   Result<> write(const View& view, const std::string& name);
   Result<> remove_oldest(const std::string& newest);
 
@@ -78,12 +65,11 @@ class SnapshotSink final : public Sink {
   std::array<std::atomic<bool>, kMaxViews> wanted_{};
   /// Indexed by view: the next picture serves a request; used by accept()'s thread only.
   std::bitset<kMaxViews> asked_;
-  hal::BoundedQueue<ViewPtr, kMaxViews> accepted_;  ///< to be written, at most one of each view
+  std::mutex mutex_;
+  std::array<ViewPtr, kMaxViews> accepted_;  ///< indexed by view: to be written; guarded by mutex_
+  std::bitset<kMaxViews> dropped_;           ///< indexed by view: to be logged; guarded by mutex_
   std::atomic<std::uint64_t> written_{0};
   hal::Thread thread_;
 };
-
-/// Null without a folder.
-std::unique_ptr<Sink> make_sink(const SnapshotSettings& settings);
 
 }  // namespace orbwatch::app
