@@ -243,6 +243,13 @@ constexpr std::string_view operator_text(ProposalState state) {
   return {};
 }
 
+/// Its name, for programs. Empty for a number that is none.
+constexpr std::string_view name_of(ProposalState state) {
+  constexpr std::array<std::string_view, 4> kNames{"none", "working", "ready", "refused"};
+  const auto index = static_cast<std::size_t>(state);
+  return index < kNames.size() ? kNames[index] : std::string_view{};
+}
+
 #define ORBWATCH_WATCH_FIGURES(FIELD)                                                              \
   FIELD(AlignmentLevel, alignment, kCode,                                                          \
         "State of the alignment: the ball's position compared with that of the alignment")         \

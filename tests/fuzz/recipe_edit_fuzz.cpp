@@ -5,8 +5,9 @@
 #include <string_view>
 
 #include "app/files/recipe_edit.h"
-#include "app/ports/web/configuration/configuration_body.h"
-#include "app/ports/web/configuration/recipe_body.h"
+#include "app/ports/web/api/record_schema.h"
+#include "app/ports/web/configuration/configuration_records.h"
+#include "app/ports/web/configuration/recipe_records.h"
 
 /// Any bytes as a request that changes a recipe, up to the first 0, and as the recipe's file behind
 /// it. The file is changed, or refused in one line that names it; repeating the change has no
@@ -16,11 +17,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const std::size_t end = bytes.find('\0');
   const std::string_view body = bytes.substr(0, end);
-  const auto files = web::parse_configuration(body);
+  const auto files = web::parse_record<web::ConfigurationBody>(body);
   if (files ? files->seconds < 10 || files->seconds > 3600 : files.error().message.empty()) {
     std::abort();
   }
-  auto request = web::parse_recipe_change(body);
+  auto request = web::parse_record<web::RecipeBody>(body);
   if (!request) {
     if (request.error().message.empty()) std::abort();
     return 0;

@@ -5,14 +5,14 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "app/ports/web/access/access_body.h"
+#include "app/ports/web/access/access_records.h"
 #include "app/ports/web/access/users.h"
+#include "app/ports/web/api/record_schema.h"
 #include "app/ports/web/commands/command_body.h"
 #include "app/ports/web/http/address.h"
 
-/// Any bytes as the body of a command over HTTP, as that of a login, as a users file and as a Host
+/// Any bytes as the body of a command over HTTP, as that of a user, as a users file and as a Host
 /// header: the first byte selects the command. An accepted command must be an allowed one of that
 /// name, a refusal must have a reason, and only numbers and localhost are names of this host.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -25,9 +25,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }
   if (!command && command.error().message.empty()) std::abort();
-  const std::vector<web::BodyMember> allowed{{"user", ""}, {"password", "", false}};
-  const auto members = web::parse_members(allowed, text);
-  if (members && members->size() != allowed.size()) std::abort();
+  auto user = web::parse_record<web::UserBody>(text);
+  if (user && !web::parse_record<web::UserBody>(web::json_text(web::json_of(*user)))) std::abort();
+  if (!user && user.error().message.empty()) std::abort();
   const auto users = web::parse_users(text);
   if (users && !web::parse_users(web::users_text(*users))) std::abort();
   const bool is_number =

@@ -14,6 +14,13 @@ import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PATIENCE_S = 60  # limit on a busy machine; no wait normally takes so long
+# A domain of the test's own on the loopback interface.
+LOOPBACK_DDS = (
+    '<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="lo"/></Interfaces>'
+    "<AllowMulticast>false</AllowMulticast></General><Discovery>"
+    f"<Tag>orbwatch_web_{os.getpid()}</Tag><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+    '<Peers><Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>')
 
 
 def eventually(what, condition):

@@ -5,14 +5,13 @@ Folders: app/ports/web/fleet app/ports/dds/fleet app/ports/web/page/files/system
 """
 
 import json
-import os
 import signal
 import unittest
 import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import Appliance, eventually, free_port
+from appliance import LOOPBACK_DDS, Appliance, eventually, free_port
 from page_case import PageCase
 
 RIG = """
@@ -56,13 +55,6 @@ height = 100
 camera = "colour"
 """
 
-# A domain of the test's own on the loopback interface.
-DDS = ('<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="lo"/></Interfaces>'
-       "<AllowMulticast>false</AllowMulticast></General><Discovery>"
-       f"<Tag>orbwatch_web_{os.getpid()}</Tag><ParticipantIndex>auto</ParticipantIndex>"
-       "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
-       '<Peers><Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>')
-
 
 class Cell(Appliance):
     """Appliance with little load: one picture a second without processor time."""
@@ -75,7 +67,7 @@ class Cell(Appliance):
             SITE.format(port=self.port, https_port=self.https_port, name=name), encoding="utf-8")
 
     def environment(self):
-        return {"CYCLONEDDS_URI": DDS}
+        return {"CYCLONEDDS_URI": LOOPBACK_DDS}
 
     def kill(self):
         self.daemon.send_signal(signal.SIGKILL)

@@ -25,11 +25,12 @@ _orbwatch() {
     "describe rig"*) words="--help" ;;
     "describe recipe"*) words="--help" ;;
     "describe registers"*) words="--format --help" ;;
+    "describe http"*) words="--help" ;;
     "describe view"*) words="--rig --camera --ball --alpha --distance --rotation --model --size-of-picture --view --yaw --pitch --roll --h-fov --v-fov --size --json --output --help" ;;
     "describe camera"*) words="--rig --camera --format --json --help" ;;
     "describe man"*) words="--help" ;;
     "describe completion"*) words="--help" ;;
-    "describe "*) words="config rig recipe registers view camera man completion" ;;
+    "describe "*) words="config rig recipe registers http view camera man completion" ;;
   esac
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}")
 }

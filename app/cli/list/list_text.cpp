@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/text_table.h"
-#include "app/model/fleet_json.h"
 #include "app/model/json.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/fleet/fleet_records.h"
 
 namespace orbwatch::app {
 namespace {
@@ -121,7 +122,8 @@ std::string list_table(const hal::Inventory& inventory) {
 }
 
 std::string appliances_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now) {
-  return Json{{"appliances", to_json(appliances, now)}}.dump(2) + "\n";
+  auto sent = web::sent_appliances(appliances, now);
+  return Json{{"appliances", web::json_of(sent)}}.dump(2) + "\n";
 }
 
 std::string appliances_table(const std::vector<Fleet::Entry>& appliances) {

@@ -1,120 +1,233 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/routes.h"
 
-#include <optional>
+#include <algorithm>
+#include <iterator>
 
-#include "app/ports/web/http/address.h"
+#include "app/ports/web/access/access_desk.h"
+#include "app/ports/web/align/align_routes.h"
+#include "app/ports/web/api/typed_route.h"
+#include "app/ports/web/commands/command_desk.h"
+#include "app/ports/web/configuration/configuration_desk.h"
+#include "app/ports/web/fleet/fleet_routes.h"
+#include "app/ports/web/history/history_routes.h"
+#include "app/ports/web/interfaces/interface_routes.h"
+#include "app/ports/web/log/log_routes.h"
+#include "app/ports/web/look_around/look_around.h"
+#include "app/ports/web/pixels/pixel_route.h"
+#include "app/ports/web/process/recipe_routes.h"
+#include "app/ports/web/status/openapi.h"
+#include "app/ports/web/status/status_routes.h"
+#include "app/ports/web/streams/live_stream.h"
+#include "app/ports/web/streams/mjpeg_stream.h"
+#include "app/ports/web/streams/stream_routes.h"
+#include "app/ports/web/views/view_list.h"
 
 namespace orbwatch::app::web {
 namespace {
 
-/// Compares the media type in any case, ignoring its parameters (RFC 9110, 8.3.1).
-bool is_json(const std::string* type) {
-  if (!type) return false;
-  std::string_view essence = std::string_view(*type).substr(0, type->find(';'));
-  while (essence.ends_with(' ') || essence.ends_with('\t')) essence.remove_suffix(1);
-  return equal_in_any_case(essence, kJson);
+using enum Role;
+
+/// Route of the description of all routes.
+Route description_route() {
+  Route route{"GET", "/api/v1/openapi.json", Viewer, "Returns the OpenAPI description",
+              std::string(kJson)};
+  route.answer = schema_of<Json, Sent::ByUs>;
+  route.serve = [](const ExchangePtr& exchange) {
+    exchange->answer(json_response(openapi_json(routes_of({}))));
+  };
+  return route;
 }
 
-/// Removes the port that the scheme implies.
-std::string_view without_port(std::string_view authority, std::string_view implied) {
-  if (authority.ends_with(implied)) authority.remove_suffix(implied.size());
-  return authority;
+std::vector<Route> status_routes(const RouteOwners& of) {
+  return {
+      get<&StatusRoutes::health>(
+          "/healthz", Nobody, of.status,
+          "Returns 200 while the pipeline reports, else 503; the text is its state", kText),
+      with_answer(get<&StatusRoutes::status>("/api/v1/status", Viewer, of.status,
+                                             "Returns the complete status"),
+                  status_schema),
+      for_players(get<&StatusRoutes::metrics>(
+          "/metrics", Viewer, of.status,
+          "Returns the status and the counters of all interfaces for Prometheus", kMetrics)),
+      get<&HistoryRoutes::figure>(
+          "/api/v1/history", Viewer, of.history,
+          "Returns the last ten minutes of one figure of a region or of a camera's supervision: "
+          "lowest and highest value of each step, oldest first, null where it was not measured"),
+      get<&HistoryRoutes::alarms>(
+          "/api/v1/history/alarms", Viewer, of.history,
+          "Returns the events of alarms since the start, oldest first: time, value, limit, and who "
+          "acknowledged"),
+      get<&LogRoutes::lines>("/api/v1/log", Operator, of.log,
+                             "Returns the newest lines of the log since the start, oldest first"),
+  };
 }
 
-/// Returns whether an Origin header is that of our own page. Over HTTP, the same host over HTTPS is
-/// accepted, because a proxy may end TLS. Over HTTPS, an origin over HTTP is not accepted, because
-/// an attacker may have forged it.
-bool is_own_origin(std::string_view origin, const Request& request) {
-  constexpr std::string_view kHttp = "http://", kHttps = "https://";
-  const bool is_https = origin.starts_with(kHttps);
-  if (!is_https && (request.is_secure || !origin.starts_with(kHttp))) return false;
-  const std::string_view port = is_https ? ":443" : ":80";
-  origin.remove_prefix(is_https ? kHttps.size() : kHttp.size());
-  return !request.host.empty() &&
-         equal_in_any_case(without_port(origin, port), without_port(request.host, port));
+std::vector<Route> picture_routes(const RouteOwners& of) {
+  return {
+      get<&ViewList::list>(
+          "/api/v1/views", Viewer, of.views,
+          "Returns per view its direction, the weights of its cameras and the colours of "
+          "one-channel ones, at present and as configured, and whether the commands point_view and "
+          "mix_sources apply; and per colour map its colours, evenly spaced from the first value "
+          "to the last"),
+      for_players(get<&StreamRoutes::snapshot>("/snapshot.jpg", Viewer, of.streams,
+                                               "Returns the view's next picture", kJpeg)),
+      for_players(get<&StreamRoutes::stream>(
+          "/stream.mjpg", Viewer, of.streams,
+          "Streams the view's pictures as MJPEG, for players and recorders", MjpegStream::kType)),
+      get<&StreamRoutes::live>(
+          "/api/v1/live", Viewer, of.streams,
+          "Streams status and views over one connection. Each message begins with a line of JSON "
+          "that states its kind and the number of bytes that follow",
+          LiveStream::kType),
+      get<&PixelRoute::pixel, PixelAnswer>(
+          "/api/v1/live/pixel", Viewer, of.pixels,
+          "Returns the values at a pixel of a picture of the live stream: direction, intensity, "
+          "temperature where a radiometric camera sees it, and the place on the scene. 410: the "
+          "picture is not kept, request a newer one"),
+      get<&LookAround::list>(
+          "/api/v1/look-around", Viewer, of.look_around,
+          "Returns the names of views of kind ball, from which a browser draws views of the room, "
+          "and of the views that the command point_view points"),
+      get<&LookAround::mesh>(
+          "/api/v1/sphere", Viewer, of.look_around,
+          "Returns the room as a view of kind ball shows it, as triangles with the pixels of their "
+          "corners: a line of JSON with the number of bytes that follow. The ETag changes with the "
+          "calibration",
+          LookAround::kType),
+  };
 }
 
-/// Checks the headers in which browsers name the page that caused a request; other clients send
-/// none. Scripts cannot set Sec-Fetch-Site, and it is independent of a proxy's change of Host.
-bool is_from_foreign_page(const Request& request) {
-  if (const std::string* site = request.header("Sec-Fetch-Site")) {
-    return *site != "same-origin" && *site != "none";
-  }
-  const std::string* origin = request.header("Origin");
-  return origin && !is_own_origin(*origin, request);
+std::vector<Route> alignment_routes(const RouteOwners& of) {
+  return {
+      get<&AlignRoutes::state>(
+          "/api/v1/alignment", Viewer, of.alignment,
+          "Returns per camera the ball's outline, the pose, the proposal, the points with "
+          "residuals, and the scene's edges as seen from the ball's centre and in the picture"),
+      get<&AlignRoutes::ball>("/api/v1/alignment/ball.jpg", Viewer, of.alignment,
+                              "Returns a camera's next picture in full resolution", kJpeg),
+      get<&AlignRoutes::view>(
+          "/api/v1/alignment/view.jpg", Viewer, of.alignment,
+          "Returns the next perspective view from one camera alone, to judge its alignment", kJpeg),
+      get<&AlignRoutes::direction>(
+          "/api/v1/alignment/direction", Viewer, of.alignment,
+          "Returns the direction, seen from the ball's centre, of a pixel in a camera's picture, "
+          "by the proposed alignment if there is one"),
+      get<&RecipeRoutes::recipe>(
+          "/api/v1/recipe", Viewer, of.recipe,
+          "Returns the regions of a recipe with corners and outlines in their views, and limits of "
+          "alarms. The number is 0 if there is no recipe"),
+      get<&RecipeRoutes::polygon>(
+          "/api/v1/recipe/polygon", Viewer, of.recipe,
+          "Returns the polygon whose corners are these pixels of a view of the recipe: as "
+          "directions, as points on the scene's surface, and its outline in the view"),
+  };
 }
 
-/// Refusal for the caller's role; nullopt: permitted.
-std::optional<Response> refusal_of_role(const Route& route, const Caller& caller) {
-  if (caller.role >= route.role) return std::nullopt;
-  const std::string needs = route.method + " " + route.path + " needs the role " +
-                            std::string(word_for(kRoles, route.role));
-  if (caller.role != Role::Nobody) {
-    return error_response(
-        403, needs + "; " + caller.name + " is " + std::string(word_for(kRoles, caller.role)));
-  }
-  Response response = error_response(
-      401,
-      needs + ": log in by POST /api/v1/login, or send the header Authorization: Bearer TOKEN");
-  if (route.takes_password) {
-    response.headers.emplace_back("WWW-Authenticate", R"(Basic realm="orbwatch", charset="UTF-8")");
-  }
-  response.headers.emplace_back("WWW-Authenticate", "Bearer");
-  return response;
+std::vector<Route> access_routes(const RouteOwners& of) {
+  return {
+      get<&AccessDesk::session>(
+          "/api/v1/session", Nobody, of.access,
+          "Returns the caller's identity and rights, and whether there are users"),
+      post<&AccessDesk::login, &AccessDesk::refuse_login>("/api/v1/login", Nobody, of.access,
+                                                          of.access_changes,
+                                                          "Starts a session, kept in a cookie"),
+      post<&AccessDesk::set_first_password, &AccessDesk::refuse_first_password>(
+          "/api/v1/set_first_password", Nobody, of.access, of.access_changes,
+          "Creates the first administrator, admin, while there are no users, and starts a session"),
+      post<&AccessDesk::logout>("/api/v1/logout", Viewer, of.access, of.access_changes,
+                                "Ends the session"),
+      post<&AccessDesk::set_password>(
+          "/api/v1/set_password", Viewer, of.access, of.access_changes,
+          "Changes the password of the logged-in user; the user's other sessions end"),
+      get<&AccessDesk::audit, AuditAnswer>("/api/v1/audit", Administrator, of.access,
+                                           "Returns the newest entries of the audit, newest last"),
+      get<&AccessDesk::users>("/api/v1/users", Administrator, of.access,
+                              "Returns users and programs, with roles"),
+      post<&AccessDesk::set_user>(
+          "/api/v1/set_user", Administrator, of.access, of.access_changes,
+          "Adds a user or changes role or password; the first user must be administrator"),
+      post<&AccessDesk::remove_user>("/api/v1/remove_user", Administrator, of.access,
+                                     of.access_changes, "Removes a user"),
+      post<&AccessDesk::create_token>(
+          "/api/v1/create_token", Administrator, of.access, of.access_changes,
+          "Creates a token for a program; the token is returned only once"),
+      post<&AccessDesk::revoke_token>("/api/v1/revoke_token", Administrator, of.access,
+                                      of.access_changes, "Revokes the token of a program"),
+  };
 }
 
-/// Refusal of a request that would change something, independent of its role.
-std::optional<Response> refusal_of_post(const Request& request) {
-  // A page of another host cannot make a browser send this header.
-  if (request.cookie(session_cookie(request)) && !request.header(kOwnPageHeader)) {
-    return error_response(403, "with a session's cookie the header " + std::string(kOwnPageHeader) +
-                                   " is required, with any value");
-  }
-  if (!is_json(request.header("Content-Type"))) {
-    return error_response(415, "the request must have the header Content-Type: application/json");
-  }
-  return std::nullopt;
+std::vector<Route> configuration_routes(const RouteOwners& of) {
+  return {
+      get<&ConfigurationDesk::show, ConfigurationAnswer>(
+          "/api/v1/configuration", Integrator, of.configuration,
+          "Returns the configuration files on the disk, and the running configuration if it "
+          "differs"),
+      post<&ConfigurationDesk::check>(
+          "/api/v1/check_configuration", Integrator, of.configuration, of.file_changes,
+          "Checks the configuration with these texts in place of some files, and returns their "
+          "changes"),
+      post<&ConfigurationDesk::try_out>(
+          "/api/v1/try_configuration", Integrator, of.configuration, of.file_changes,
+          "Checks the configuration like check_configuration, and runs it on trial until it is "
+          "confirmed or reverted"),
+      post<&ConfigurationDesk::check_recipe>(
+          "/api/v1/check_recipe", Integrator, of.configuration, of.file_changes,
+          "Checks the configuration with these limits and regions in a recipe's file, which is "
+          "otherwise unchanged, and returns the changes"),
+      post<&ConfigurationDesk::try_recipe>(
+          "/api/v1/try_recipe", Integrator, of.configuration, of.file_changes,
+          "Checks the recipe like check_recipe, and runs it on trial until it is confirmed or "
+          "reverted, like try_configuration"),
+      post<&ConfigurationDesk::confirm>("/api/v1/confirm_configuration", Integrator,
+                                        of.configuration, of.file_changes,
+                                        "Confirms the configuration on trial: writes its files"),
+      post<&ConfigurationDesk::revert>("/api/v1/revert_configuration", Integrator, of.configuration,
+                                       of.file_changes, "Reverts the configuration on trial"),
+  };
 }
 
-/// Refusal of a request. A foreign page is refused first, because the logged-in user did not intend
-/// its request.
-std::optional<Response> refusal_of(const Request& request, const Route& route,
-                                   const CallerOf& caller_of) {
-  const bool changes = route.method == "POST";
-  if (changes && is_from_foreign_page(request)) {
-    return error_response(403, "a page of another host caused this request");
-  }
-  const auto caller = caller_of(request, route);
-  if (!caller) return caller.error();
-  auto refusal = refusal_of_role(route, *caller);
-  return refusal || !changes ? refusal : refusal_of_post(request);
+std::vector<Route> plant_routes(const RouteOwners& of) {
+  return {
+      get<&InterfaceRoutes::about>(
+          "/api/v1/about", Viewer, of.interfaces,
+          "Returns the versions of the programs, and the interfaces that accept commands"),
+      get<&InterfaceRoutes::tables>(
+          "/api/v1/interfaces", Integrator, of.interfaces,
+          "Returns Modbus registers with their values, connected clients, and DDS topics with "
+          "their readers"),
+      get<&FleetRoutes::list>(
+          "/api/v1/appliances", Viewer, of.fleet,
+          "Returns all appliances of the DDS domain, including those that left: state, page, and "
+          "the time since their last message"),
+      get<&FleetRoutes::picture>(
+          "/api/v1/appliances/picture.jpg", Viewer, of.fleet,
+          "Returns a thumbnail of an appliance of the domain, updated every few seconds while the "
+          "list is requested",
+          kJpeg),
+      post<&FleetRoutes::forget>("/api/v1/forget_appliances", Operator, of.fleet, of.file_changes,
+                                 "Removes appliances that left from the list"),
+  };
+}
+
+/// One route for each of kCommands.
+std::vector<Route> command_routes(const RouteOwners& of) {
+  std::vector<Route> routes;
+  routes.reserve(kCommands.size());
+  for (const CommandInfo& info : kCommands) routes.push_back(command_route(info, of.commands));
+  return routes;
 }
 
 }  // namespace
 
-void serve(const std::vector<Route>& routes, const CallerOf& caller_of,
-           const ExchangePtr& exchange) {
-  const Request& request = exchange->request();
-  const std::string_view asked = request.method, method = asked == "HEAD" ? "GET" : asked;
-  std::string allowed;
-  for (const Route& route : routes) {
-    if (route.path != request.path) continue;
-    if (route.method == method) {
-      auto refusal = refusal_of(request, route, caller_of);
-      if (!refusal) return route.serve(exchange);
-      exchange->answer(std::move(*refusal));
-      return;
-    }
-    allowed += (allowed.empty() ? "" : ", ") + route.method;
+std::vector<Route> routes_of(const RouteOwners& owners) {
+  std::vector<Route> all{description_route()};
+  for (auto* part : {status_routes, picture_routes, alignment_routes, access_routes,
+                     configuration_routes, plant_routes, command_routes}) {
+    std::ranges::move(part(owners), std::back_inserter(all));
   }
-  if (allowed.empty()) {
-    exchange->answer(error_response(404, "unknown path"));
-    return;
-  }
-  Response response = error_response(405, "this path allows " + allowed);
-  response.headers.emplace_back("Allow", allowed);
-  exchange->answer(std::move(response));
+  return all;
 }
 
 }  // namespace orbwatch::app::web

@@ -2,40 +2,23 @@
 #include "app/ports/web/access/access_desk.h"
 
 #include <algorithm>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "app/ports/web/access/secret.h"
-#include "app/ports/web/http/address.h"
 
 namespace orbwatch::app::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr int kOk = 200, kTooManyRequests = 429, kUnavailable = 503;
-
-Response done() { return json_response(R"({"result_text":"done"})"); }
-
-Response done_or(const Result<>& result) {
-  return result ? done() : error_response(409, result.error().message);
-}
-
-std::string cookie(const web::Request& request, const std::string& token,
-                   std::chrono::seconds age) {
+std::string cookie(const Request& request, const std::string& token, std::chrono::seconds age) {
   return std::string(session_cookie(request)) + "=" + token + "; Path=" + request.prefix +
          "/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(age.count()) +
          (request.is_secure ? "; Secure" : "");
 }
 
-template <class One>
-Json list_of(const std::vector<One>& all) {
-  Json list = Json::array();
-  for (const One& one : all) {
-    list.push_back({{"name", one.name}, {"role", std::string(word_for(kRoles, one.role))}});
-  }
-  return list;
+/// Text such as "kim: viewer".
+std::string with_role(const std::string& name, Role role) {
+  return name + ": " + std::string(word_for(kRoles, role));
 }
 
 /// Removes the entry of this name. Error: unknown name.
@@ -47,162 +30,11 @@ Result<> remove(std::vector<One>& all, const std::string& name, const char* what
 
 }  // namespace
 
-Response refused(const Access::Refusal& refusal) {
-  Response response = error_response(refusal.status, refusal.what);
-  if (refusal.retry_after.count() > 0) {
-    response.headers.emplace_back("Retry-After", std::to_string(refusal.retry_after.count()));
-  }
-  return response;
-}
-
-Route AccessDesk::changing(const char* path, Role role, const char* description,
-                           std::vector<BodyMember> body, Handler handler, Refuse refuse) {
-  const Task task{role, handler, refuse};
-  Route route{"POST", path, role, description, std::string(kJson), {}};
-  route.body = body;
-  route.serve = [this, task, body = std::move(body)](const ExchangePtr& exchange) {
-    auto members = parse_members(body, exchange->request().body);
-    if (!members) {
-      exchange->answer(error_response(400, members.error().message));
-      return;
-    }
-    receive(exchange, std::move(*members), task);
-  };
-  return route;
-}
-
-/// Receives a request, on a thread of the server; does not wait.
-void AccessDesk::receive(const ExchangePtr& exchange, Members members, const Task& task) {
-  const web::Request& sent = exchange->request();
-  if (task.refuse) {
-    Request request{sent, members, ""};
-    if (const auto refusal = (this->*task.refuse)(request)) {
-      exchange->answer(refuse_unknown(request, *refusal));
-      return;
-    }
-  }
-  const SlowWork::Asker asker = this->asker(sent, members);
-  work_.run(exchange, asker, [this, task, exchange, members = std::move(members)] {
-    return answer_and_note(exchange, members, task);
-  });
-}
-
-Audit::Entry AccessDesk::entry_of(const Request& request, bool is_done) {
-  const std::string& path = request.sent.path;
-  return {std::chrono::system_clock::now(), request.user,   client_address(request.sent),
-          path.substr(path.rfind('/') + 1), request.before, request.after,
-          is_done ? "done" : "refused"};
-}
-
-/// Refusal for a caller without a role. A 503 is a fault of the appliance and does not count as an
-/// attempt.
-Response AccessDesk::refuse_unknown(Request& request, const Access::Refusal& refusal) {
-  constexpr std::uint64_t kMostRefused = 20;
-  if (refusal.status == kUnavailable) return refused(refusal);
-  const auto count = audit_.note_refused(entry_of(request, false));
-  if (count <= kMostRefused || refusal.status == kTooManyRequests) return refused(refusal);
-  const std::chrono::seconds wait = Repetitions::kPeriod;
-  return refused({kTooManyRequests,
-                  "too many refused requests from this address; try again in " +
-                      std::to_string(wait.count()) + " s",
-                  wait});
-}
-
-/// Client in the queues. A user does not wait behind guesses of others at an address from which the
-/// user has logged in before.
-SlowWork::Asker AccessDesk::asker(const web::Request& sent, const Members& members) const {
-  const Caller caller = access_.caller(credentials_of(sent));
-  if (caller.role != Role::Nobody) return {true, caller.name};
-  const std::string address = address_key(client_address(sent));
-  const auto user = members.find("user");
-  return {user != members.end() && access_.is_familiar(user->second, client_address(sent)),
-          address};
-}
-
-/// The role is checked again, because the request may have waited.
-Response AccessDesk::answer_and_note(const ExchangePtr& exchange, const Members& members,
-                                     const Task& task) {
-  const web::Request& sent = exchange->request();
-  access_.refresh();
-  const Caller caller = access_.caller(credentials_of(sent));
-  if (caller.role < task.role) {
-    return error_response(401, "the required role has expired; log in again");
-  }
-  Request request{sent, members, caller.name};
-  Response response = (this->*task.handler)(request);
-  note(request, task, response.status);
-  return response;
-}
-
-/// Requests refused for their rate are counted if they come without a role, and otherwise not
-/// recorded, because they would displace all other entries.
-void AccessDesk::note(const Request& request, const Task& task, int status) {
-  if (status == kUnavailable || request.changes_nothing) return;
-  if (task.role == Role::Nobody && status != kOk) {
-    audit_.note_refused(entry_of(request, false));
-  } else if (status != kTooManyRequests) {
-    audit_.note(entry_of(request, status == kOk), request.before + request.after);
-  }
-}
-
-Route AccessDesk::shown(const char* path, Role role, const char* description,
-                        Response (AccessDesk::*handler)(const web::Request&) const) {
-  const auto serve = [this, handler](const ExchangePtr& exchange) {
-    exchange->answer((this->*handler)(exchange->request()));
-  };
-  return {"GET", path, role, description, std::string(kJson), serve};
-}
-
-std::vector<Route> AccessDesk::routes() {
-  const BodyMember user{"user", "Name of a user"}, name{"name", "Name of a program"};
-  const BodyMember password{"password", "At least 12 characters"};
-  const BodyMember role{"role", "viewer, operator, integrator or administrator"};
-  const auto optional = [](BodyMember member) {
-    member.is_required = false;
-    return member;
-  };
-  std::vector<Route> routes;
-  routes.push_back(shown("/api/v1/session", Role::Nobody,
-                         "Returns the caller's identity and whether there are users",
-                         &AccessDesk::session));
-  routes.push_back(changing("/api/v1/login", Role::Nobody, "Starts a session, kept in a cookie",
-                            {user, password}, &AccessDesk::login, &AccessDesk::refuse_login));
-  routes.push_back(changing(
-      "/api/v1/set_first_password", Role::Nobody,
-      "Creates the first administrator, admin, while there are no users, and starts a session",
-      {{"code", "Code that the log and `orbwatch password --show` print"}, password},
-      &AccessDesk::set_first_password, &AccessDesk::refuse_first_password));
-  routes.push_back(
-      changing("/api/v1/logout", Role::Viewer, "Ends the session", {}, &AccessDesk::logout));
-  routes.push_back(
-      changing("/api/v1/set_password", Role::Viewer,
-               "Changes the password of the logged-in user; the user's other sessions end",
-               {{"old", "The present password"}, {"new", "At least 12 characters"}},
-               &AccessDesk::set_password));
-  routes.push_back({"GET", "/api/v1/audit", Role::Administrator,
-                    "Returns the newest entries of the audit, newest last", std::string(kJson),
-                    [this](const ExchangePtr& exchange) { show_audit(exchange); }});
-  routes.push_back(shown("/api/v1/users", Role::Administrator,
-                         "Returns users and programs, with roles", &AccessDesk::users));
-  routes.push_back(
-      changing("/api/v1/set_user", Role::Administrator,
-               "Adds a user or changes role or password; the first user must be administrator",
-               {user, optional(role), optional(password)}, &AccessDesk::set_user));
-  routes.push_back(changing("/api/v1/remove_user", Role::Administrator, "Removes a user", {user},
-                            &AccessDesk::remove_user));
-  routes.push_back(changing("/api/v1/create_token", Role::Administrator,
-                            "Creates a token for a program; the token is returned only once",
-                            {name, role}, &AccessDesk::create_token));
-  routes.push_back(changing("/api/v1/revoke_token", Role::Administrator,
-                            "Revokes the token of a program", {name}, &AccessDesk::revoke_token));
-  return routes;
-}
-
-void AccessDesk::show_audit(const ExchangePtr& exchange) {
+void AccessDesk::audit(const ExchangePtr& exchange) {
   constexpr std::size_t kMostShown = 500;
-  work_.run(exchange, asker(exchange->request(), {}), [this] {
+  changes_.read(exchange, [this] {
     audit_.write_all();
-    return json_response(audit_.newest(kMostShown));
+    return json_response(json_text({{"entries", audit_.newest(kMostShown)}}));
   });
 }
 
@@ -210,143 +42,127 @@ void AccessDesk::show_audit(const ExchangePtr& exchange) {
 std::string AccessDesk::role_of(const std::string& user) const {
   const Users all = access_.users();
   const User* found = all.find(user);
-  return found ? user + ": " + std::string(word_for(kRoles, found->role)) : "";
+  return found ? with_role(user, found->role) : "";
 }
 
-Response AccessDesk::session(const web::Request& request) const {
+Answered<SessionAnswer> AccessDesk::session(const Request& request) const {
   const Caller caller = access_.caller(credentials_of(request));
-  Json roles = Json::array();
+  SessionAnswer session{caller.name, word_for(kRoles, caller.role), {}};
   for (const auto& role : kRoles) {
-    if (role.value <= caller.role) roles.push_back(std::string(role.name));
+    if (role.value <= caller.role) session.roles.push_back(role.name);
   }
-  return json_response(Json{{"user", caller.name},
-                            {"role", std::string(word_for(kRoles, caller.role))},
-                            {"roles", roles},
-                            {"password_characters", kLeastPasswordCharacters},
-                            {"has_users", access_.has_users()}}
-                           .dump());
+  session.has_users = access_.has_users();
+  return session;
 }
 
-Response AccessDesk::users(const web::Request& /*request*/) const {
-  const Users all = access_.users();
-  return json_response(Json{{"users", list_of(all.users)}, {"tokens", list_of(all.tokens)}}.dump());
-}
+Answered<Users> AccessDesk::users() const { return access_.users(); }
 
-Response AccessDesk::logged_in(const web::Request& request, const Access::Token& token) const {
-  if (!token) return refused(token.error());
-  Response response = done();
-  response.headers.emplace_back("Set-Cookie", cookie(request, *token, longest_));
-  return response;
+Answered<Done> AccessDesk::logged_in(ChangeRequest& change, const Access::Token& token) const {
+  if (!token) return tl::unexpected(refused(token.error()));
+  change.headers.emplace_back("Set-Cookie", cookie(change.request, *token, longest_));
+  return Done{};
 }
 
 // Only a known name is recorded, because a password may have been typed as the name.
-std::optional<Access::Refusal> AccessDesk::refuse_login(Request& request) const {
-  const std::string& user = request.members.at("user");
-  request.after = role_of(user);
-  return access_.login_refusal(user, client_address(request.sent));
+std::optional<Access::Refusal> AccessDesk::refuse_login(Change<LoginBody>& change) const {
+  change.after = role_of(change.body.user);
+  return access_.login_refusal(change.body.user, client_address(change.request));
 }
 
-std::optional<Access::Refusal> AccessDesk::refuse_first_password(Request& request) const {
-  return access_.first_password_refusal(client_address(request.sent));
+std::optional<Access::Refusal> AccessDesk::refuse_first_password(
+    Change<FirstPasswordBody>& change) const {
+  return access_.first_password_refusal(client_address(change.request));
 }
 
-Response AccessDesk::login(Request& request) {
-  const std::string& user = request.members.at("user");
-  const auto token =
-      access_.login(user, request.members.at("password"), client_address(request.sent));
-  if (token) request.user = user;
-  request.after = role_of(user);
-  return logged_in(request.sent, token);
+Answered<Done> AccessDesk::login(Change<LoginBody>& change) {
+  const std::string& user = change.body.user;
+  const auto token = access_.login(user, change.body.password, client_address(change.request));
+  if (token) change.caller.name = user;
+  change.after = role_of(user);
+  return logged_in(change, token);
 }
 
-Response AccessDesk::logout(Request& request) {
-  const std::string* session = request.sent.cookie(session_cookie(request.sent));
-  request.changes_nothing = !session || !access_.logout(*session);
-  Response response = done();
-  response.headers.emplace_back("Set-Cookie", cookie(request.sent, "", std::chrono::seconds(0)));
-  return response;
+Answered<Done> AccessDesk::logout(Change<Nothing>& change) {
+  const std::string* session = change.request.cookie(session_cookie(change.request));
+  change.changes_nothing = !session || !access_.logout(*session);
+  change.headers.emplace_back("Set-Cookie", cookie(change.request, "", std::chrono::seconds(0)));
+  return Done{};
 }
 
-Response AccessDesk::set_password(Request& request) {
-  return logged_in(request.sent, access_.change_password(request.user, request.members.at("old"),
-                                                         request.members.at("new"),
-                                                         client_address(request.sent)));
+Answered<Done> AccessDesk::set_password(Change<PasswordBody>& change) {
+  const PasswordBody& body = change.body;
+  return logged_in(change,
+                   access_.change_password(change.caller.name, body.old_password, body.new_password,
+                                           client_address(change.request)));
 }
 
-Response AccessDesk::set_first_password(Request& request) {
-  const auto token = access_.set_first_password(
-      request.members.at("code"), request.members.at("password"), client_address(request.sent));
+Answered<Done> AccessDesk::set_first_password(Change<FirstPasswordBody>& change) {
+  const auto token = access_.set_first_password(change.body.code, change.body.password,
+                                                client_address(change.request));
   if (token) {
-    request.user = kFirstUser;
-    request.after = role_of(request.user);
+    change.caller.name = kFirstUser;
+    change.after = role_of(change.caller.name);
   }
-  return logged_in(request.sent, token);
+  return logged_in(change, token);
 }
 
-/// Changes the users. Trust in this computer ends with the first password, which may be set
-/// meanwhile.
-Result<> AccessDesk::change(const Request& request, const std::function<Result<>(Users&)>& change) {
-  return access_.change([&](Users& all) -> Result<> {
-    if (request.user.empty() && !all.users.empty()) {
+/// Trust in this computer ends with the first password, which may be set meanwhile.
+Answered<Done> AccessDesk::change_users(const ChangeRequest& change,
+                                        const std::function<Result<>(Users&)>& edit) {
+  const auto changed = access_.change([&](Users& all) -> Result<> {
+    if (change.caller.name.empty() && !all.users.empty()) {
       return fail("a password has been set meanwhile; log in");
     }
-    return change(all);
+    return edit(all);
   });
+  if (!changed) return refuse(changed.error());
+  return Done{};
 }
 
-Response AccessDesk::set_user(Request& request) {
-  const std::string &user = request.members.at("user"), &password = request.members.at("password");
-  std::optional<Role> role;
-  if (const std::string& named = request.members.at("role"); !named.empty()) {
-    const auto parsed = parse_role(named);
-    if (!parsed) return error_response(400, parsed.error().message);
-    role = *parsed;
-  }
+Answered<Done> AccessDesk::set_user(Change<UserBody>& change) {
+  const UserBody& body = change.body;
   std::string hash;
-  if (!password.empty()) {
-    if (auto right = check_password(password); !right) {
-      return error_response(400, right.error().message);
-    }
-    auto hashed = hash_password(password);
-    if (!hashed) return error_response(503, hashed.error().message);
+  if (!body.password.empty()) {
+    if (auto right = check_password(body.password); !right) return refuse(right.error(), 400);
+    auto hashed = hash_password(body.password);
+    if (!hashed) return refuse(hashed.error(), 503);
     hash = std::move(*hashed);
   }
-  request.before = role_of(user);
-  const auto changed =
-      change(request, [&](Users& all) { return web::set_user(all, user, role, hash); });
-  if (changed) request.after = role_of(user) + (hash.empty() ? "" : ", another password");
-  return done_or(changed);
+  change.before = role_of(body.user);
+  const auto changed = change_users(
+      change, [&](Users& all) { return web::set_user(all, body.user, body.role, hash); });
+  if (changed) change.after = role_of(body.user) + (hash.empty() ? "" : ", another password");
+  return changed;
 }
 
-Response AccessDesk::remove_user(Request& request) {
-  const std::string& user = request.members.at("user");
-  request.before = role_of(user);
-  return done_or(change(request, [&](Users& all) { return remove(all.users, user, "user"); }));
+Answered<Done> AccessDesk::remove_user(Change<UserNameBody>& change) {
+  const std::string& user = change.body.user;
+  change.before = role_of(user);
+  return change_users(change, [&](Users& all) { return remove(all.users, user, "user"); });
 }
 
-Response AccessDesk::create_token(Request& request) {
-  const std::string& name = request.members.at("name");
-  const auto role = parse_role(request.members.at("role"));
-  if (!role) return error_response(400, role.error().message);
-  if (auto named = check_name(name); !named) return error_response(400, named.error().message);
+Answered<TokenAnswer> AccessDesk::create_token(Change<TokenBody>& change) {
+  const auto& [name, role] = change.body;
+  if (auto named = check_name(name); !named) return refuse(named.error(), 400);
   const std::string token = random_token();
-  const auto added = change(request, [&](Users& all) -> Result<> {
-    if (std::ranges::find(all.tokens, name, &ApiToken::name) != all.tokens.end()) {
-      return fail("there is a token " + name + " already; revoke it first");
+  const ApiToken added{name, role, token_hash(token)};
+  const auto changed = change_users(change, [&](Users& all) -> Result<> {
+    if (std::ranges::find(all.tokens, added.name, &ApiToken::name) != all.tokens.end()) {
+      return fail("there is a token " + added.name + " already; revoke it first");
     }
-    all.tokens.push_back({name, *role, token_hash(token)});
+    all.tokens.push_back(added);
     return {};
   });
-  if (added) request.after = name + ": " + request.members.at("role");
-  return added ? json_response(Json{{"token", token}}.dump()) : done_or(added);
+  if (changed) change.after = with_role(name, role);
+  return changed.map([&](Done) { return TokenAnswer{token}; });
 }
 
-Response AccessDesk::revoke_token(Request& request) {
-  const std::string& name = request.members.at("name");
+Answered<Done> AccessDesk::revoke_token(Change<TokenNameBody>& change) {
+  const std::string& name = change.body.name;
   const auto removed =
-      change(request, [&](Users& all) { return remove(all.tokens, name, "token"); });
-  if (removed) request.before = name;
-  return done_or(removed);
+      change_users(change, [&](Users& all) { return remove(all.tokens, name, "token"); });
+  if (removed) change.before = name;
+  return removed;
 }
 
 }  // namespace orbwatch::app::web

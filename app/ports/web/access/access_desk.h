@@ -5,86 +5,54 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/ports/web/access/access.h"
-#include "app/ports/web/access/access_body.h"
+#include "app/ports/web/access/access_records.h"
 #include "app/ports/web/access/audit.h"
-#include "app/ports/web/access/slow_work.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/api/changes.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/api/route.h"
 
 namespace orbwatch::app::web {
 
-/// Answer to a refused caller. Reentrant.
-Response refused(const Access::Refusal& refusal);
-
-/// Routes by which users and programs log in, and by which the administrator manages them. Thread
-/// rule: start and stop by one owner; the routes on any thread.
+/// Handlers by which users and programs log in, and by which the administrator manages them.
+/// Thread-safe; those with a Change wait for the disk or for a hash.
 class AccessDesk {
  public:
-  /// `access` and `audit` outlive the desk. `longest` is the limit of a session's age.
-  AccessDesk(Access& access, Audit& audit, std::chrono::seconds longest)
-      : access_(access), audit_(audit), longest_(longest) {}
+  /// `access`, `audit` and `changes` outlive the desk. `longest` is the limit of a session's age.
+  AccessDesk(Access& access, Audit& audit, Changes& changes, std::chrono::seconds longest)
+      : access_(access), audit_(audit), changes_(changes), longest_(longest) {}
 
-  void start() { work_.start(); }
-  void stop() { work_.stop(); }
+  Answered<SessionAnswer> session(const Request& request) const;
+  Answered<Users> users() const;
+  void audit(const ExchangePtr& exchange);
 
-  std::vector<Route> routes();
+  Answered<Done> login(Change<LoginBody>& change);
+  Answered<Done> logout(Change<Nothing>& change);
+  Answered<Done> set_password(Change<PasswordBody>& change);
+  Answered<Done> set_first_password(Change<FirstPasswordBody>& change);
+  Answered<Done> set_user(Change<UserBody>& change);
+  Answered<Done> remove_user(Change<UserNameBody>& change);
+  Answered<TokenAnswer> create_token(Change<TokenBody>& change);
+  Answered<Done> revoke_token(Change<TokenNameBody>& change);
 
-  std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
+  /// @name Refusals regardless of the secret that is sent; nullopt: it is checked. They do not
+  /// wait.
+  /// @{
+  std::optional<Access::Refusal> refuse_login(Change<LoginBody>& change) const;
+  std::optional<Access::Refusal> refuse_first_password(Change<FirstPasswordBody>& change) const;
+  /// @}
 
  private:
-  struct Request {
-    const web::Request& sent;
-    const Members& members;
-    std::string user;               ///< name of the caller
-    std::string before{}, after{};  ///< values for the audit
-    bool changes_nothing = false;   ///< not recorded in the audit
-  };
-  using Handler = Response (AccessDesk::*)(Request&);
-  /// Refusal of a client without a role, regardless of the secret that it sends; nullopt: none.
-  using Refuse = std::optional<Access::Refusal> (AccessDesk::*)(Request&) const;
-
-  /// Handling of a request, at once and on the desk's thread.
-  struct Task {
-    Role role = Role::Administrator;
-    Handler handler = nullptr;
-    Refuse refuse = nullptr;
-  };
-
-  /// `refuse` null: no request is refused at once.
-  Route changing(const char* path, Role role, const char* description, std::vector<BodyMember> body,
-                 Handler handler, Refuse refuse = nullptr);
-  void receive(const ExchangePtr& exchange, Members members, const Task& task);
-  Response refuse_unknown(Request& request, const Access::Refusal& refusal);
-  SlowWork::Asker asker(const web::Request& sent, const Members& members) const;
-  Result<> change(const Request& request, const std::function<Result<>(Users&)>& change);
-  Route shown(const char* path, Role role, const char* description,
-              Response (AccessDesk::*handler)(const web::Request&) const);
-
-  Response session(const web::Request& request) const;
-  Response users(const web::Request& request) const;
-  Response login(Request& request);
-  Response logout(Request& request);
-  Response set_password(Request& request);
-  Response set_first_password(Request& request);
-  Response set_user(Request& request);
-  Response remove_user(Request& request);
-  Response create_token(Request& request);
-  Response revoke_token(Request& request);
-  std::optional<Access::Refusal> refuse_login(Request& request) const;
-  std::optional<Access::Refusal> refuse_first_password(Request& request) const;
-  Response answer_and_note(const ExchangePtr& exchange, const Members& members, const Task& task);
-  void note(const Request& request, const Task& task, int status);
-  static Audit::Entry entry_of(const Request& request, bool is_done);
-  void show_audit(const ExchangePtr& exchange);
+  Answered<Done> change_users(const ChangeRequest& change,
+                              const std::function<Result<>(Users&)>& edit);
+  Answered<Done> logged_in(ChangeRequest& change, const Access::Token& token) const;
   std::string role_of(const std::string& user) const;
-  Response logged_in(const web::Request& request, const Access::Token& token) const;
 
   Access& access_;
   Audit& audit_;
+  Changes& changes_;
   const std::chrono::seconds longest_;
-  SlowWork work_{"web access", "too many logins or changes of users at present; try again"};
 };
 
 }  // namespace orbwatch::app::web

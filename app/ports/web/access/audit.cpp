@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/ports/web/http/address.h"
@@ -13,7 +12,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-using AuditEntries = std::vector<nlohmann::ordered_json>;
+using AuditEntries = std::vector<Json>;
 
 std::string kind_of(std::initializer_list<std::string> parts) {
   std::string kind;
@@ -21,9 +20,7 @@ std::string kind_of(std::initializer_list<std::string> parts) {
   return kind;
 }
 
-bool is_earlier(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
-  return a.value("time", "") < b.value("time", "");
-}
+bool is_earlier(const Json& a, const Json& b) { return a.value("time", "") < b.value("time", ""); }
 
 /// Merges by time, keeping the order of each list even if the clock was set back in between.
 AuditEntries merge(AuditEntries a, AuditEntries b) {
@@ -117,11 +114,11 @@ void Audit::write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_
   refused_file_.append(refused);
 }
 
-std::string Audit::newest(std::size_t most) const {
+std::vector<Json> Audit::newest(std::size_t most) const {
   AuditEntries refused = refused_file_.newest(std::min(most, kMostRefusedShown));
   AuditEntries entries =
       fair(file_.newest(std::numeric_limits<std::size_t>::max()), most - refused.size());
-  return nlohmann::ordered_json{{"entries", merge(std::move(entries), std::move(refused))}}.dump();
+  return merge(std::move(entries), std::move(refused));
 }
 
 }  // namespace orbwatch::app::web

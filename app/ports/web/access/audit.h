@@ -48,10 +48,10 @@ class Audit {
   /// Like write_due(), and records all other counts.
   void write_all();
 
-  /// `{"entries": [...]}` as JSON, the newest last, at most kMostRefusedShown of clients without a
-  /// role; a tenth is reserved for each user's newest entries, so that one user cannot displace
-  /// those of others. Waits for the disk.
-  std::string newest(std::size_t most) const;
+  /// The newest entries as AuditFile has them, the newest last, at most kMostRefusedShown of
+  /// clients without a role; a tenth is reserved for each user's newest entries, so that one user
+  /// cannot displace those of others. Waits for the disk.
+  std::vector<Json> newest(std::size_t most) const;
 
  private:
   void write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_counts);

@@ -10,26 +10,12 @@
 #include <system_error>
 
 #include "app/log.h"
-#include "app/model/utc_text.h"
+#include "app/ports/web/api/record.h"
 #include "app/state/private_file.h"
 #include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::web {
 namespace {
-
-using AuditJson = nlohmann::ordered_json;
-
-std::string line_of(const AuditEntry& entry) {
-  const AuditJson line{{"time", utc_text(entry.time).value_or("")},
-                       {"who", entry.who},
-                       {"from", entry.from},
-                       {"what", entry.what},
-                       {"before", entry.before},
-                       {"after", entry.after},
-                       {"result", entry.result}};
-  // An attempted name may not be valid UTF-8.
-  return line.dump(-1, ' ', false, AuditJson::error_handler_t::replace) + "\n";
-}
 
 /// Appends lines, after a line break if a power cut has left a partial line. False: failed, errno
 /// is set.
@@ -45,12 +31,12 @@ bool append_to(const std::filesystem::path& file, std::string lines) {
          ::fdatasync(opened.get()) == 0;
 }
 
-void add_lines(const std::filesystem::path& file, std::vector<AuditJson>& entries) {
+void add_lines(const std::filesystem::path& file, std::vector<Json>& entries) {
   const auto text = read_private(file);
   if (!text || !*text) return;
   std::istringstream lines(**text);
   for (std::string line; std::getline(lines, line);) {
-    AuditJson entry = AuditJson::parse(line, nullptr, false);
+    Json entry = Json::parse(line, nullptr, false);
     if (entry.is_object()) entries.push_back(std::move(entry));
   }
 }
@@ -62,8 +48,8 @@ void AuditFile::append(const std::vector<AuditEntry>& entries) {
   constexpr std::size_t kMostAtOnce = 64 * 1024;
   if (folder_.empty() || entries.empty()) return;
   std::string lines;
-  for (const AuditEntry& entry : entries) {
-    const std::string line = line_of(entry);
+  for (AuditEntry entry : entries) {
+    const std::string line = json_text(json_of(entry)) + "\n";
     if (!lines.empty() && lines.size() + line.size() > kMostAtOnce) {
       append_lines(std::exchange(lines, {}));
     }
@@ -88,8 +74,8 @@ void AuditFile::append_lines(const std::string& lines) {
                                 "; lost: " + lines.substr(0, lines.size() - 1));
 }
 
-std::vector<AuditJson> AuditFile::newest(std::size_t most) const {
-  std::vector<AuditJson> entries;
+std::vector<Json> AuditFile::newest(std::size_t most) const {
+  std::vector<Json> entries;
   if (folder_.empty()) return entries;
   const std::lock_guard lock(mutex_);
   add_lines(file_before(), entries);

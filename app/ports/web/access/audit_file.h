@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/ports/web/access/audit_entry.h"
+#include "app/ports/web/api/json_form.h"
 
 namespace orbwatch::app::web {
 
@@ -28,8 +28,8 @@ class AuditFile {
   /// Appends entries; logs an error if they cannot be written.
   void append(const std::vector<AuditEntry>& entries);
 
-  /// The newest entries, the newest last. Partial lines after a power cut are omitted.
-  std::vector<nlohmann::ordered_json> newest(std::size_t most) const;
+  /// The newest entries as written, the newest last. Partial lines after a power cut are omitted.
+  std::vector<Json> newest(std::size_t most) const;
 
  private:
   std::filesystem::path file() const { return folder_ / (name_ + ".jsonl"); }

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "app/model/alignment.h"
+#include "app/ports/web/align/alignment_records.h"
+#include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"
-#include "app/ports/web/routes.h"
 
 namespace orbwatch::app::web {
 
@@ -18,14 +19,14 @@ class AlignRoutes {
   AlignRoutes(std::vector<std::string> cameras, AlignmentSource* source)
       : cameras_(std::move(cameras)), source_(source) {}
 
-  std::vector<Route> routes();
+  Answered<AlignmentAnswer> state() const;
+  void ball(const CameraQuery& query, const ExchangePtr& exchange) const;
+  void view(const CameraViewQuery& query, const ExchangePtr& exchange) const;
+  Answered<DirectionAnswer> direction(const CameraPixelQuery& query) const;
 
  private:
-  void serve_alignment(const ExchangePtr& exchange) const;
-  void serve_direction(const ExchangePtr& exchange) const;
-  void serve_picture(const ExchangePtr& exchange, bool is_view) const;
-  Result<std::size_t> camera_of(const Request& request) const;
-  Result<AlignmentPicture> picture_of(const Request& request, bool is_view) const;
+  void request(const CameraQuery& query, AlignmentPicture picture,
+               const ExchangePtr& exchange) const;
 
   const std::vector<std::string> cameras_;
   AlignmentSource* const source_;

@@ -1,28 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/configuration/configuration_desk.h"
 
-#include <nlohmann/json.hpp>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "app/ports/web/configuration/configuration_body.h"
-#include "app/ports/web/configuration/recipe_body.h"
+#include "app/ports/web/api/typed_route.h"
 
 namespace orbwatch::app::web {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Longest diff stored in the audit, in bytes.
 constexpr std::size_t kMostNoted = 4096;
 /// Entries of the audit among which the last change of a file is searched.
 constexpr std::size_t kMostSearched = 1000;
 
-/// Writes JSON, in which invalid UTF-8 is replaced.
-Response answer(const Json& json) {
-  return json_response(json.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+/// Stands for absent files; refuses everything.
+class NoFiles final : public ConfigurationFiles {
+ public:
+  Result<State> read() const override { return refusal(); }
+  Result<Edit> with_changed_recipe(int, const RecipeChange&) const override { return refusal(); }
+  Result<Change> check(const Texts&) const override { return refusal(); }
+  Result<Change> try_out(const Edit&, int) override { return refusal(); }
+  Result<std::vector<std::string>> confirm() override { return refusal(); }
+  Result<> revert() override { return refusal(); }
+
+ private:
+  static tl::unexpected<Error> refusal() { return fail("there are no configuration files"); }
+};
+
+Response conflict(const Error& error) { return error_response(409, error.message); }
 
 /// Checks for UTF-8, because a text that JSON would change must not be sent back.
 bool is_utf8(const std::string& text) {
@@ -33,19 +42,21 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-Json change_json(const ConfigurationFiles::Change& change) {
-  return {{"files", change.files}, {"difference", change.difference}};
-}
-
-void add(Json& list, const ConfigurationFiles::Texts& texts,
+void add(std::vector<FileAnswer>& list, const ConfigurationFiles::Texts& texts,
          const std::map<std::string, ConfigurationFiles::Version>& versions, bool may_change) {
   for (const auto& [name, text] : texts) {
-    Json file{{"name", name}, {"may_change", may_change && is_utf8(text)}, {"text", text}};
+    FileAnswer& file = list.emplace_back(FileAnswer{name, may_change && is_utf8(text), text, {}});
     if (const auto version = versions.find(name); version != versions.end()) {
-      file["checksum"] = version->second.checksum;
+      file.checksum = version->second.checksum;
     }
-    list.push_back(std::move(file));
   }
+}
+
+/// Returns whether the configuration file itself is changed.
+bool is_other_site(const ConfigurationFiles::State& state, const ConfigurationFiles::Texts& texts) {
+  const auto changed = texts.find(state.site), present = state.files.find(state.site);
+  return changed != texts.end() &&
+         (present == state.files.end() || present->second != changed->second);
 }
 
 /// Lines of one side of a difference, "-" or "+", and lines without a side.
@@ -68,141 +79,49 @@ bool is_before(std::string_view moment, std::string_view other) {
 
 }  // namespace
 
-/// A request for a change, with its values for the audit.
-struct ConfigurationDesk::Sent {
-  Caller caller;
-  ConfigurationBody body{};
-  RecipeBody recipe{};
-  std::string before{};
-  std::string after{};
+ConfigurationDesk::ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, const Audit& audit,
+                                     Changes& changes)
+    : files_(files ? std::move(files) : std::make_shared<NoFiles>()),
+      audit_(audit),
+      changes_(changes) {}
 
-  static Result<> read_nothing(std::string_view /*body*/, Sent& /*sent*/) { return {}; }
-  static Result<> read_files(std::string_view text, Sent& sent) {
-    return parse_configuration(text).map(
-        [&](ConfigurationBody parsed) { sent.body = std::move(parsed); });
-  }
-  static Result<> read_recipe(std::string_view text, Sent& sent) {
-    return parse_recipe_change(text).map(
-        [&](RecipeBody parsed) { sent.recipe = std::move(parsed); });
-  }
-};
-
-ConfigurationDesk::ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, Access& access,
-                                     Audit& audit)
-    : files_(std::move(files)), access_(access), audit_(audit) {}
-
-std::vector<Route> ConfigurationDesk::routes() {
-  if (!files_) return {};
-  std::vector<Route> routes;
-  routes.push_back(
-      {"GET", "/api/v1/configuration", Role::Integrator,
-       "Returns the configuration files on the disk, and the running configuration if it differs",
-       std::string(kJson), [this](const ExchangePtr& exchange) {
-         work_.run(exchange, asker(exchange), [this] { return show(); });
-       }});
-  routes.push_back(changing(
-      "/api/v1/check_configuration",
-      "Checks the configuration with these texts in place of some files, and returns their changes",
-      {kFilesMember, kBasedOnMember}, &Sent::read_files, &ConfigurationDesk::check));
-  routes.push_back(changing("/api/v1/try_configuration",
-                            "Checks the configuration like check_configuration, and runs it on "
-                            "trial until it is confirmed or reverted",
-                            {kFilesMember, kBasedOnMember, kSecondsMember}, &Sent::read_files,
-                            &ConfigurationDesk::try_out));
-  routes.push_back(changing("/api/v1/check_recipe",
-                            "Checks the configuration with these limits and regions in a recipe's "
-                            "file, which is otherwise unchanged, and returns the changes",
-                            {kRecipeMember, kLimitsMember, kRegionsMember}, &Sent::read_recipe,
-                            &ConfigurationDesk::check_recipe));
-  routes.push_back(changing("/api/v1/try_recipe",
-                            "Checks the recipe like check_recipe, and runs it on trial until it is "
-                            "confirmed or reverted, like try_configuration",
-                            {kRecipeMember, kLimitsMember, kRegionsMember, kSecondsMember},
-                            &Sent::read_recipe, &ConfigurationDesk::try_recipe));
-  routes.push_back(changing("/api/v1/confirm_configuration",
-                            "Confirms the configuration on trial: writes its files", {},
-                            &Sent::read_nothing, &ConfigurationDesk::confirm));
-  routes.push_back(changing("/api/v1/revert_configuration", "Reverts the configuration on trial",
-                            {}, &Sent::read_nothing, &ConfigurationDesk::revert));
-  return routes;
+void ConfigurationDesk::show(const ExchangePtr& exchange) {
+  changes_.read(exchange, [this] { return response_of(read()); });
 }
 
-Route ConfigurationDesk::changing(const char* path, const char* description,
-                                  std::vector<BodyMember> body, Read read, Handler handler) {
-  Route route{"POST", path, Role::Integrator, description, std::string(kJson), {}};
-  route.body = std::move(body);
-  route.serve = [this, read, handler](const ExchangePtr& exchange) {
-    work_.run(exchange, asker(exchange),
-              [this, read, handler, exchange] { return answer_and_note(exchange, read, handler); });
-  };
-  return route;
-}
-
-/// Client in the queues; every caller here has a role.
-SlowWork::Asker ConfigurationDesk::asker(const ExchangePtr& exchange) const {
-  return {true, access_.caller(credentials_of(exchange->request())).name};
-}
-
-Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read read,
-                                            Handler handler) {
-  const web::Request& request = exchange->request();
-  Sent sent{access_.caller(credentials_of(request))};
-  if (sent.caller.role < Role::Integrator) {
-    return error_response(401, "the required role has expired; log in again");
-  }
-  const std::string name = request.path.substr(request.path.rfind('/') + 1);
-  if (const auto right = read(request.body, sent); !right) {
-    return error_response(400, right.error().message);
-  }
-  Response response = (this->*handler)(sent);
-  if (handler != &ConfigurationDesk::check && handler != &ConfigurationDesk::check_recipe) {
-    constexpr int kDone = 200;
-    audit_.note({std::chrono::system_clock::now(), sent.caller.name, client_address(request), name,
-                 sent.before, sent.after, response.status == kDone ? "done" : "refused"});
-  }
-  return response;
-}
-
-Response ConfigurationDesk::show() const {
+Answered<ConfigurationAnswer> ConfigurationDesk::read() const {
   const auto state = files_->read();
-  if (!state) return error_response(409, state.error().message);
-  Json list = Json::array();
-  add(list, state->files, state->versions, true);
-  add(list, state->outside, {}, false);
-  Json trial;
-  if (state->trial) {
-    trial = {{"files", *state->trial},
-             {"seconds_left", state->seconds_left ? Json(*state->seconds_left) : Json()}};
-  }
-  return answer({{"site", state->site},
-                 {"files", std::move(list)},
-                 {"refusal", state->refusal},
-                 {"trial", std::move(trial)}});
+  if (!state) return refuse(state.error());
+  ConfigurationAnswer answer{state->site, {}, state->refusal, {}};
+  add(answer.files, state->files, state->versions, true);
+  add(answer.files, state->outside, {}, false);
+  if (state->trial) answer.trial = {*state->trial, state->seconds_left};
+  return answer;
 }
 
-/// Checks the rights. Error: the configuration file itself is changed, which requires an
-/// administrator.
-Result<> ConfigurationDesk::permit(const Sent& sent) const {
-  if (sent.caller.role >= Role::Administrator) return {};
+/// Returns the edit if the caller has the right to it, and it would not overwrite another change.
+Answered<ConfigurationFiles::Edit> ConfigurationDesk::permitted(const ChangeRequest& change,
+                                                                const Edit& edit) const {
+  const bool is_administrator = change.caller.role >= Role::Administrator;
+  if (is_administrator && edit.based_on.empty()) return edit;
   const auto state = files_->read();
-  if (!state) return tl::unexpected(state.error());
-  const auto changed = sent.body.edit.texts.find(state->site);
-  const auto present = state->files.find(state->site);
-  const bool is_other = changed != sent.body.edit.texts.end() &&
-                        (present == state->files.end() || present->second != changed->second);
-  if (!is_other) return {};
-  return fail("another " + state->site +
-              " needs the role administrator: it determines where users are kept and which camera "
-              "modules run");
+  if (!state) return refuse(state.error());
+  if (!is_administrator && is_other_site(*state, edit.texts)) {
+    return refuse(403, "another " + state->site +
+                           " needs the role administrator: it determines where users are kept and "
+                           "which camera modules run");
+  }
+  const auto checked = check_basis(*state, edit);
+  if (!checked) return refuse(checked.error());
+  return edit;
 }
 
 /// User of the newest confirmation on the page that wrote the file since its change began;
 /// otherwise the account on the board.
 std::string ConfigurationDesk::changer_of(const std::string& name,
                                           const ConfigurationFiles::Version& now) const {
-  const Json audit = Json::parse(audit_.newest(kMostSearched), nullptr, false);
   std::string who;
-  for (const Json& entry : audit.value("entries", Json::array())) {
+  for (const Json& entry : audit_.newest(kMostSearched)) {
     if (entry.value("what", "") != "confirm_configuration" || entry.value("result", "") != "done" ||
         is_before(entry.value("time", ""), now.time)) {
       continue;
@@ -217,13 +136,11 @@ std::string ConfigurationDesk::changer_of(const std::string& name,
 
 /// Error: a file differs from the version on which the new texts are based, so that their change
 /// would overwrite another.
-Result<> ConfigurationDesk::check_basis(const Sent& sent) const {
-  if (sent.body.edit.based_on.empty()) return {};
-  const auto state = files_->read();
-  if (!state) return tl::unexpected(state.error());
-  for (const auto& [name, checksum] : sent.body.edit.based_on) {
-    const auto version = state->versions.find(name);
-    if (version == state->versions.end()) return fail(name + " was removed since it was read");
+Result<> ConfigurationDesk::check_basis(const ConfigurationFiles::State& state,
+                                        const Edit& edit) const {
+  for (const auto& [name, checksum] : edit.based_on) {
+    const auto version = state.versions.find(name);
+    if (version == state.versions.end()) return fail(name + " was removed since it was read");
     const ConfigurationFiles::Version& now = version->second;
     if (now.checksum == checksum) continue;
     return fail(
@@ -233,62 +150,57 @@ Result<> ConfigurationDesk::check_basis(const Sent& sent) const {
   return {};
 }
 
-Response ConfigurationDesk::check(Sent& sent) {
-  if (const auto permitted = permit(sent); !permitted) {
-    return error_response(403, permitted.error().message);
-  }
-  if (const auto unchanged = check_basis(sent); !unchanged) {
-    return error_response(409, unchanged.error().message);
-  }
-  const auto change = files_->check(sent.body.edit.texts);
-  return change ? answer(change_json(*change)) : error_response(409, change.error().message);
+Answered<ConfigurationFiles::Change> ConfigurationDesk::check_edit(
+    ChangeRequest& change, const Answered<Edit>& edit) const {
+  change.changes_nothing = true;
+  return edit.and_then([&](const Edit& sent) { return permitted(change, sent); })
+      .and_then([&](const Edit& sent) { return files_->check(sent.texts).map_error(conflict); });
 }
 
-Response ConfigurationDesk::try_out(Sent& sent) {
-  if (const auto permitted = permit(sent); !permitted) {
-    return error_response(403, permitted.error().message);
-  }
-  if (const auto unchanged = check_basis(sent); !unchanged) {
-    return error_response(409, unchanged.error().message);
-  }
-  const auto change = files_->try_out(sent.body.edit, sent.body.seconds);
-  if (!change) return error_response(409, change.error().message);
-  sent.before = side_of(change->difference, '-');
-  sent.after = side_of(change->difference, '+');
-  Json json = change_json(*change);
-  json["seconds"] = sent.body.seconds;
-  return answer(json);
-}
-
-/// Replaces the sent changes by the text that results from them.
-Result<> ConfigurationDesk::apply_changes(Sent& sent) const {
-  return files_->with_changed_recipe(sent.recipe.recipe, sent.recipe.change)
-      .map([&](ConfigurationFiles::Edit edit) {
-        sent.body = {std::move(edit), sent.recipe.seconds};
+Answered<TrialAnswer> ConfigurationDesk::try_edit(ChangeRequest& change, const Answered<Edit>& edit,
+                                                  int seconds) {
+  return edit.and_then([&](const Edit& sent) { return permitted(change, sent); })
+      .and_then(
+          [&](const Edit& sent) { return files_->try_out(sent, seconds).map_error(conflict); })
+      .map([&](const ConfigurationFiles::Change& tried) {
+        change.before = side_of(tried.difference, '-');
+        change.after = side_of(tried.difference, '+');
+        return TrialAnswer{tried, seconds};
       });
 }
 
-Response ConfigurationDesk::check_recipe(Sent& sent) {
-  const auto applied = apply_changes(sent);
-  return applied ? check(sent) : error_response(409, applied.error().message);
+/// The text that results from changes of a recipe.
+Answered<ConfigurationFiles::Edit> ConfigurationDesk::edit_of(const RecipeBody& body) const {
+  return files_->with_changed_recipe(body.recipe, body.change).map_error(conflict);
 }
 
-Response ConfigurationDesk::try_recipe(Sent& sent) {
-  const auto applied = apply_changes(sent);
-  return applied ? try_out(sent) : error_response(409, applied.error().message);
+Answered<ConfigurationFiles::Change> ConfigurationDesk::check(Change<ConfigurationBody>& change) {
+  return check_edit(change, change.body.edit);
 }
 
-Response ConfigurationDesk::confirm(Sent& sent) {
+Answered<TrialAnswer> ConfigurationDesk::try_out(Change<ConfigurationBody>& change) {
+  return try_edit(change, change.body.edit, change.body.seconds);
+}
+
+Answered<ConfigurationFiles::Change> ConfigurationDesk::check_recipe(Change<RecipeBody>& change) {
+  return check_edit(change, edit_of(change.body));
+}
+
+Answered<TrialAnswer> ConfigurationDesk::try_recipe(Change<RecipeBody>& change) {
+  return try_edit(change, edit_of(change.body), change.body.seconds);
+}
+
+Answered<ConfirmedAnswer> ConfigurationDesk::confirm(Change<Nothing>& change) {
   const auto written = files_->confirm();
-  if (!written) return error_response(409, written.error().message);
-  for (const std::string& name : *written) sent.after += (sent.after.empty() ? "" : ", ") + name;
-  return answer({{"files", *written}});
+  if (!written) return refuse(written.error());
+  for (const std::string& name : *written) {
+    change.after += (change.after.empty() ? "" : ", ") + name;
+  }
+  return ConfirmedAnswer{*written};
 }
 
-Response ConfigurationDesk::revert(Sent& /*sent*/) {
-  const auto reverted = files_->revert();
-  if (!reverted) return error_response(409, reverted.error().message);
-  return answer({{"result_text", "done"}});
+Answered<Done> ConfigurationDesk::revert(Change<Nothing>& /*change*/) {
+  return files_->revert().map([] { return Done{}; }).map_error(conflict);
 }
 
 }  // namespace orbwatch::app::web

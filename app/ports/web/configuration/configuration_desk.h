@@ -1,62 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "app/model/configuration_files.h"
-#include "app/ports/web/access/access.h"
 #include "app/ports/web/access/audit.h"
-#include "app/ports/web/access/slow_work.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/api/changes.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/api/route.h"
+#include "app/ports/web/configuration/configuration_records.h"
+#include "app/ports/web/configuration/recipe_records.h"
 
 namespace orbwatch::app::web {
 
-/// Routes that read, check, try out and confirm the files of the configuration, and single limits
+/// Handlers that read, check, try out and confirm the files of the configuration, and single limits
 /// and regions of a recipe within its file. The configuration file itself determines where users
-/// are kept and which camera modules run: changing it needs an administrator. Thread rule: start
-/// and stop by one owner; the routes on any thread.
+/// are kept and which camera modules run: changing it needs an administrator. Thread-safe; all wait
+/// for the disk, except show().
 class ConfigurationDesk {
  public:
-  /// `files` null: there are no routes. `access` and `audit` outlive the desk.
-  ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, Access& access, Audit& audit);
+  /// `files` null: all requests are refused. `audit` and `changes` outlive the desk.
+  ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, const Audit& audit,
+                    Changes& changes);
 
-  void start() { work_.start(); }
-  void stop() { work_.stop(); }
+  void show(const ExchangePtr& exchange);
 
-  std::vector<Route> routes();
-
-  std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
+  Answered<ConfigurationFiles::Change> check(Change<ConfigurationBody>& change);
+  Answered<TrialAnswer> try_out(Change<ConfigurationBody>& change);
+  Answered<ConfigurationFiles::Change> check_recipe(Change<RecipeBody>& change);
+  Answered<TrialAnswer> try_recipe(Change<RecipeBody>& change);
+  Answered<ConfirmedAnswer> confirm(Change<Nothing>& change);
+  Answered<Done> revert(Change<Nothing>& change);
 
  private:
-  struct Sent;
-  using Handler = Response (ConfigurationDesk::*)(Sent&);
-  /// Parses a request's body into `sent`.
-  using Read = Result<> (*)(std::string_view body, Sent& sent);
+  using Edit = ConfigurationFiles::Edit;
 
-  Route changing(const char* path, const char* description, std::vector<BodyMember> body, Read read,
-                 Handler handler);
-  SlowWork::Asker asker(const ExchangePtr& exchange) const;
-  Response answer_and_note(const ExchangePtr& exchange, Read read, Handler handler);
-
-  Response show() const;
-  Response check(Sent& sent);
-  Response try_out(Sent& sent);
-  Response check_recipe(Sent& sent);
-  Response try_recipe(Sent& sent);
-  Response confirm(Sent& sent);
-  Response revert(Sent& sent);
-  Result<> permit(const Sent& sent) const;
-  Result<> check_basis(const Sent& sent) const;
+  Answered<ConfigurationAnswer> read() const;
+  Answered<Edit> edit_of(const RecipeBody& body) const;
+  Answered<ConfigurationFiles::Change> check_edit(ChangeRequest& change,
+                                                  const Answered<Edit>& edit) const;
+  Answered<TrialAnswer> try_edit(ChangeRequest& change, const Answered<Edit>& edit, int seconds);
+  Answered<Edit> permitted(const ChangeRequest& change, const Edit& edit) const;
+  Result<> check_basis(const ConfigurationFiles::State& state, const Edit& edit) const;
   std::string changer_of(const std::string& name, const ConfigurationFiles::Version& now) const;
-  Result<> apply_changes(Sent& sent) const;
 
   const std::shared_ptr<ConfigurationFiles> files_;
-  Access& access_;
-  Audit& audit_;
-  SlowWork work_{"web files", "other users are changing the configuration at present; try again"};
+  const Audit& audit_;
+  Changes& changes_;
 };
 
 }  // namespace orbwatch::app::web

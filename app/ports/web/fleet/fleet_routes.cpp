@@ -1,73 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/fleet/fleet_routes.h"
 
-#include <nlohmann/json.hpp>
-#include <string_view>
-#include <utility>
-
-#include "app/model/fleet_json.h"
-
 namespace orbwatch::app::web {
-namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr std::string_view kMissing = "set enabled = true in [dds]";
-
-void show(Fleet* fleet, const ExchangePtr& exchange) {
+Answered<FleetAnswer> FleetRoutes::list() const {
+  if (!fleet_) return FleetAnswer{{}, 0, 0, "set enabled = true in [dds]"};
   const auto now = hal::Clock::now();
-  if (fleet) fleet->look(now);
-  exchange->answer(json_response(fleet_json(fleet, now)));
+  fleet_->look(now);
+  const Fleet::Counts counts = fleet_->counts();
+  return FleetAnswer{sent_appliances(fleet_->list(now), now), counts.turned_away, counts.refused,
+                     std::nullopt};
 }
 
-void show_picture(const Fleet* fleet, const ExchangePtr& exchange) {
-  const std::string* id = exchange->request().argument("appliance");
-  auto picture = fleet && id ? fleet->picture(*id) : nullptr;
+Response FleetRoutes::picture(const ThumbnailQuery& query) const {
+  auto picture = fleet_ ? fleet_->picture(query.appliance) : nullptr;
   if (!picture) {
-    exchange->answer(error_response(404,
-                                    "unknown appliance; pass ?appliance=ID with an id that "
-                                    "/api/v1/appliances lists with pictures"));
-    return;
+    return error_response(404,
+                          "no picture of this appliance; appliance must be an id that "
+                          "/api/v1/appliances lists with pictures");
   }
   Response response;
   response.type = kJpeg;
   response.body = std::move(picture);
-  exchange->answer(std::move(response));
+  return response;
 }
 
-void forget(Fleet* fleet, const ExchangePtr& exchange) {
-  const std::size_t count = fleet ? fleet->forget_gone(hal::Clock::now()) : 0;
-  exchange->answer(json_response(Json{{"forgotten", count}}.dump()));
-}
-
-}  // namespace
-
-std::string fleet_json(Fleet* fleet, hal::TimePoint now) {
-  const Fleet::Counts counts = fleet ? fleet->counts() : Fleet::Counts{};
-  return Json{{"appliances", to_json(fleet ? fleet->list(now) : std::vector<Fleet::Entry>(), now)},
-              {"turned_away", counts.turned_away},
-              {"refused", counts.refused},
-              {"missing", fleet ? Json() : Json(kMissing)}}
-      .dump();
-}
-
-std::vector<Route> fleet_routes(const std::shared_ptr<Fleet>& fleet) {
-  const auto by = [&fleet](auto serve) {
-    return [fleet, serve](const ExchangePtr& exchange) { serve(fleet.get(), exchange); };
-  };
-  std::vector<Route> routes;
-  routes.push_back({"GET", "/api/v1/appliances", Role::Viewer,
-                    "Returns all appliances of the DDS domain, including those that left: state, "
-                    "page, and the time since their last message in seconds",
-                    std::string(kJson), by(show)});
-  routes.push_back({"GET", "/api/v1/appliances/picture.jpg", Role::Viewer,
-                    "Returns a thumbnail of an appliance of the domain, updated every few seconds "
-                    "while the list is requested",
-                    std::string(kJpeg), by(show_picture)});
-  routes.back().query = {{"appliance", "Id of the appliance in the list", true, false}};
-  routes.push_back({"POST", "/api/v1/forget_appliances", Role::Operator,
-                    "Removes appliances that left from the list", std::string(kJson), by(forget)});
-  return routes;
+Answered<ForgottenAnswer> FleetRoutes::forget(Change<Nothing>& change) const {
+  const std::size_t count = fleet_ ? fleet_->forget_gone(hal::Clock::now()) : 0;
+  change.after = std::to_string(count) + " removed";
+  return ForgottenAnswer{count};
 }
 
 }  // namespace orbwatch::app::web

@@ -2,19 +2,27 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
+#include <utility>
 
-#include "app/model/fleet.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/api/changes.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/api/route.h"
+#include "app/ports/web/fleet/fleet_records.h"
 
 namespace orbwatch::app::web {
 
-/// `{"appliances": [{"id": ..., "name": ..., "page": ...}, ...], "turned_away": 0, "refused": 0,
-/// "missing": null}`. `fleet` null: `missing` states that DDS is needed. Reentrant.
-std::string fleet_json(Fleet* fleet, hal::TimePoint now);
+/// Serves the list of the appliances of the DDS domain. Thread-safe.
+class FleetRoutes {
+ public:
+  /// `fleet` null: DDS is not enabled.
+  explicit FleetRoutes(std::shared_ptr<Fleet> fleet) : fleet_(std::move(fleet)) {}
 
-/// The routes of all appliances of the DDS domain. `fleet` null: DDS is not enabled.
-std::vector<Route> fleet_routes(const std::shared_ptr<Fleet>& fleet);
+  Answered<FleetAnswer> list() const;
+  Response picture(const ThumbnailQuery& query) const;
+  Answered<ForgottenAnswer> forget(Change<Nothing>& change) const;
+
+ private:
+  const std::shared_ptr<Fleet> fleet_;
+};
 
 }  // namespace orbwatch::app::web

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "app/model/measured_recipe.h"
+#include "app/ports/web/api/route.h"
 #include "app/ports/web/history/alarm_history.h"
 #include "app/ports/web/history/figure_history.h"
-#include "app/ports/web/http/exchange.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/history/history_records.h"
 
 namespace orbwatch::app::web {
 
@@ -18,7 +18,8 @@ class HistoryRoutes {
   HistoryRoutes(const StatusNames& names, const std::vector<MeasuredRecipe>& recipes)
       : names_(names), recipes_(recipes), figures_(names) {}
 
-  std::vector<Route> routes();
+  Answered<FigureAnswer> figure(const FigureQuery& query) const;
+  Answered<AlarmsAnswer> alarms(const AlarmsQuery& query) const;
 
   void accept(const Status& status) { figures_.accept(status); }
   void accept(const AlarmNotice& notice) { alarms_.accept(notice); }
@@ -26,9 +27,6 @@ class HistoryRoutes {
   std::uint64_t alarm_events() const { return alarms_.count(); }
 
  private:
-  void serve_figure(const ExchangePtr& exchange) const;
-  void serve_alarms(const ExchangePtr& exchange) const;
-
   const StatusNames names_;
   const std::vector<MeasuredRecipe> recipes_;
   FigureHistory figures_;

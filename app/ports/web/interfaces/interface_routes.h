@@ -2,21 +2,45 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/model/interface_table.h"
 #include "app/model/program.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/api/route.h"
 
 namespace orbwatch::app::web {
 
-/// `{"modbus": {"registers": [{"name": ..., "value": ...}, ...]}, ...}`. Reentrant.
-std::string tables_json(const std::vector<InterfaceTable>& tables);
+struct AboutAnswer {
+  std::vector<std::pair<std::string, std::string>> versions;
+  std::string commanders;
+};
+template <class Visitor>
+void visit(Visitor& v, AboutAnswer& about) {
+  v.required("versions", about.versions, "Versions by name: orbwatchd first, then libraries");
+  v.required("commanders", about.commanders, "Interfaces that accept commands, in words");
+}
 
-/// Routes of the interfaces' tables, and of the program's versions. `tables` is called on any
-/// thread; empty: no tables.
-std::vector<Route> interface_routes(std::function<std::vector<InterfaceTable>()> tables,
-                                    const Program& program);
+/// Rows by the name of their table, by interface: {"modbus": {"registers": [{"name": ...}, ...]}}.
+/// A row has a text, a number, null or a flag for each column.
+using TablesAnswer = std::map<std::string, std::map<std::string, std::vector<Json>>>;
+
+/// Serves the versions of the program, and the tables of the other interfaces. Thread-safe.
+class InterfaceRoutes {
+ public:
+  /// `tables` is called on any thread; empty: no tables.
+  InterfaceRoutes(std::function<std::vector<InterfaceTable>()> tables, const Program& program)
+      : tables_(std::move(tables)), about_{program.versions, program.commanders} {}
+
+  Answered<AboutAnswer> about() const { return about_; }
+  Answered<TablesAnswer> tables() const;
+
+ private:
+  const std::function<std::vector<InterfaceTable>()> tables_;
+  const AboutAnswer about_;
+};
 
 }  // namespace orbwatch::app::web

@@ -2,14 +2,23 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <utility>
 
-#include "app/ports/web/routes.h"
-#include "app/recent_log.h"
+#include "app/ports/web/api/route.h"
+#include "app/ports/web/log/log_records.h"
 
 namespace orbwatch::app::web {
 
-/// Route of the newest lines of the log; none without a log.
-std::vector<Route> log_routes(std::shared_ptr<const RecentLog> log);
+/// Serves the newest lines of the log. Thread-safe.
+class LogRoutes {
+ public:
+  /// Null: the program keeps no lines.
+  explicit LogRoutes(std::shared_ptr<const RecentLog> log) : log_(std::move(log)) {}
+
+  Answered<LogAnswer> lines(const LogQuery& query) const;
+
+ private:
+  const std::shared_ptr<const RecentLog> log_;
+};
 
 }  // namespace orbwatch::app::web

@@ -5,25 +5,51 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/model/published.h"
 #include "app/model/status_report.h"
+#include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/streams/view_query.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app::web {
 
+/// Views of kind ball, and views that the command point_view points.
+struct LookAroundAnswer {
+  struct Pointed {
+    std::string name;
+    std::size_t index = 0;
+  };
+  std::vector<std::string> spheres;
+  std::vector<Pointed> pointed;
+};
+template <class Visitor>
+void visit(Visitor& v, LookAroundAnswer::Pointed& view) {
+  v.required("name", view.name, "Name of the view");
+  v.required("index", view.index, "Argument view of commands");
+}
+template <class Visitor>
+void visit(Visitor& v, LookAroundAnswer& answer) {
+  v.required("spheres", answer.spheres, "Names of views of kind ball");
+  v.required("pointed", answer.pointed, "Views that point_view points");
+}
+
 /// Serves the data from which browsers draw views of the room from a ball's picture. A mesh is
 /// computed at the first request, on shared threads, and kept, because calibration and scene change
-/// only with a restart. Thread rule: stop by the owner; the routes on any thread.
+/// only with a restart. Thread rule: stop by the owner; list and mesh on any thread.
 class LookAround {
  public:
   LookAround(const StatusNames& names, const std::vector<PublishedView>& views,
              std::shared_ptr<hal::SharedThreads> threads);
 
-  std::vector<Route> routes();
+  static constexpr std::string_view kType = "application/octet-stream";
+
+  Answered<LookAroundAnswer> list() const { return list_; }
+  /// Answers with mesh_text() of a view.
+  void mesh(const ViewQuery& query, const ExchangePtr& exchange);
 
   /// Waits for the computation in progress; pending requests are left to their deadline.
   void stop() { work_.cancel(); }
@@ -31,21 +57,18 @@ class LookAround {
 
  private:
   struct Sphere {
-    std::string name;  ///< name of the view
     std::shared_ptr<const optics::ViewProjection> view;
     Bytes mesh;                        ///< null: not computed yet; guarded by mutex_
     std::string tag;                   ///< ETag of the mesh; guarded by mutex_
     std::vector<ExchangePtr> waiting;  ///< under mutex_
   };
 
-  void serve_list(const ExchangePtr& exchange) const;
-  void serve_mesh(const ExchangePtr& exchange);
   void compute();
   static void answer(const ExchangePtr& exchange, const Bytes& mesh, const std::string& tag);
 
-  std::string list_;  ///< answer of serve_list()
+  LookAroundAnswer list_;
   std::mutex mutex_;
-  std::vector<Sphere> spheres_;
+  std::vector<Sphere> spheres_;  ///< in the order of list_.spheres
   hal::SharedThreads::Work work_;
 };
 

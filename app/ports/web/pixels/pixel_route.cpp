@@ -3,17 +3,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <utility>
 
+#include "app/ports/web/api/typed_route.h"
 #include "app/ports/web/pixels/pixel.h"
-#include "app/ports/web/query.h"
 
 namespace orbwatch::app::web {
 namespace {
-
-/// Largest whole number that a double represents exactly.
-constexpr double kMostNumber = 1LL << std::numeric_limits<double>::digits;
 
 std::string gone(std::uint64_t number, const std::string& view) {
   return "picture " + std::to_string(number) + " of view " + view +
@@ -36,55 +32,18 @@ PixelRoute::PixelRoute(const WebContext& context)
       ball_(context.ball),
       scene_(context.scene) {}
 
-Route PixelRoute::route() {
-  Route route;
-  route.method = "GET";
-  route.path = "/api/v1/live/pixel";
-  route.role = Role::Viewer;
-  route.description =
-      "Returns the values at a pixel of a picture of the live stream: direction, intensity, "
-      "temperature where a radiometric camera sees it, and the place on the scene; deg, %, degC, "
-      "mm. 410: the picture is not kept, request a newer one";
-  route.type = kJson;
-  route.view = ViewArgument::One;
-  route.query = {{"number", "Number of the picture in the stream; default: the next one"},
-                 {"u", "px, to the right, pixel centres at integers", true},
-                 {"v", "px, down", true}};
-  route.serve = [this](const ExchangePtr& exchange) { serve(exchange); };
-  return route;
-}
-
-void PixelRoute::serve(const ExchangePtr& exchange) {
-  const std::string* name = exchange->request().argument("view");
-  const auto named = name ? std::ranges::find(names_, *name) : names_.end();
-  if (named == names_.end()) {
-    exchange->answer(
-        error_response(404, "unknown view; pass ?view=NAME with a name from /api/v1/status"));
+void PixelRoute::pixel(const PixelQuery& query, const ExchangePtr& exchange) {
+  const auto view = index_of("view", query.view, names_);
+  if (!view) {
+    exchange->answer(view.error());
     return;
   }
-  const auto question = question_of(exchange, static_cast<std::size_t>(named - names_.begin()));
-  if (!question) {
-    exchange->answer(error_response(400, question.error().message));
-    return;
-  }
-  recent_.point(question->view, hal::Clock::now());
-  if (!question->number) return wait(*question);
-  const ViewPtr view = recent_.find(question->view, *question->number);
-  if (view) return answer(*question, *view, *question->number);
-  exchange->answer(error_response(410, gone(*question->number, *name)));
-}
-
-Result<PixelRoute::Question> PixelRoute::question_of(const ExchangePtr& exchange,
-                                                     std::size_t view) const {
-  const Request& request = exchange->request();
-  const auto number = number_of(request, "number", 0, 1, kMostNumber);
-  const auto u = number_of(request, "u", 0, kMaxSide), v = number_of(request, "v", 0, kMaxSide);
-  for (const auto* argument : {&number, &u, &v}) {
-    if (!*argument) return tl::unexpected(argument->error());
-  }
-  Question question{exchange, view, std::nullopt, {*u, *v}};
-  if (*number > 0) question.number = static_cast<std::uint64_t>(*number);
-  return question;
+  recent_.point(*view, hal::Clock::now());
+  const Question question{exchange, *view, query.pixel};
+  if (!query.number) return wait(question);
+  const ViewPtr kept = recent_.find(*view, *query.number);
+  if (kept) return answer(question, *kept, *query.number);
+  exchange->answer(error_response(410, gone(*query.number, query.view)));
 }
 
 /// Adds a waiting question, and removes those that the server has answered at their deadline.
@@ -118,19 +77,21 @@ void PixelRoute::stop() {
 }
 
 void PixelRoute::answer(const Question& question, const View& view, std::uint64_t number) const {
+  question.exchange->answer(response_of(values_at(question.pixel, view, number)));
+}
+
+Answered<PixelAnswer> PixelRoute::values_at(const optics::Vec2& pixel, const View& view,
+                                            std::uint64_t number) const {
   const int width = view.picture.width, height = view.picture.height;
-  if (question.pixel.u > width - 1 || question.pixel.v > height - 1) {
-    question.exchange->answer(error_response(400, "the picture has " + std::to_string(width) + "x" +
-                                                      std::to_string(height) + " pixels"));
-    return;
+  if (pixel.u > width - 1 || pixel.v > height - 1) {
+    return refuse(
+        400, "the picture has " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
   }
   const auto projection = projection_of(view, views_[view.index]);
-  if (!projection) {
-    question.exchange->answer(error_response(409, projection.error().message));
-    return;
-  }
-  const Pixel pixel = pixel_of(view, *projection, ball_, scene_, question.pixel);
-  question.exchange->answer(json_response(pixel_json(pixel, number, view.stamp)));
+  if (!projection) return refuse(projection.error());
+  PixelAnswer values = pixel_of(view, *projection, ball_, scene_, pixel);
+  values.number = number;
+  return values;
 }
 
 }  // namespace orbwatch::app::web

@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/model/view.h"
+#include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/pixels/pixel_records.h"
 #include "app/ports/web/streams/recent_views.h"
 #include "app/ports/web/web_context.h"
 
@@ -21,7 +21,7 @@ class PixelRoute {
  public:
   explicit PixelRoute(const WebContext& context);
 
-  Route route();
+  void pixel(const PixelQuery& query, const ExchangePtr& exchange);
 
   /// Returns whether a client points into a view. Takes no lock.
   bool wants(std::size_t view, hal::TimePoint now) const { return recent_.wants(view, now); }
@@ -37,14 +37,13 @@ class PixelRoute {
   struct Question {
     ExchangePtr exchange;
     std::size_t view;
-    std::optional<std::uint64_t> number;  ///< nullopt: the next picture
     optics::Vec2 pixel;
   };
 
-  void serve(const ExchangePtr& exchange);
-  Result<Question> question_of(const ExchangePtr& exchange, std::size_t view) const;
   void wait(Question question);
   void answer(const Question& question, const View& view, std::uint64_t number) const;
+  Answered<PixelAnswer> values_at(const optics::Vec2& pixel, const View& view,
+                                  std::uint64_t number) const;
 
   const std::vector<std::string> names_;
   const std::vector<PublishedView> views_;

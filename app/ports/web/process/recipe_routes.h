@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/model/measured_recipe.h"
-#include "app/ports/web/http/exchange.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/api/route.h"
+#include "app/ports/web/process/measured_recipe_records.h"
 #include "proc/signals/region.h"
 
 namespace orbwatch::app::web {
@@ -21,12 +21,11 @@ class RecipeRoutes {
                std::function<std::uint16_t()> selected)
       : recipes_(std::move(recipes)), scene_(std::move(scene)), selected_(std::move(selected)) {}
 
-  std::vector<Route> routes();
+  Answered<RecipeAnswer> recipe(const RecipeQuery& query) const;
+  Answered<PolygonAnswer> polygon(const PolygonQuery& query) const;
 
  private:
-  void serve_recipe(const ExchangePtr& exchange) const;
-  void serve_polygon(const ExchangePtr& exchange) const;
-  Result<const MeasuredRecipe*> recipe_of(const Request& request) const;
+  Answered<const MeasuredRecipe*> recipe_of(const RecipeQuery& query) const;
 
   const std::vector<MeasuredRecipe> recipes_;
   const signals::RegionScene scene_;

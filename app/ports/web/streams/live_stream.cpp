@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "app/model/utc_text.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/views/view_records.h"
 
 namespace orbwatch::app::web {
 
@@ -27,7 +29,10 @@ void LiveStream::begin(const Source& source, Item item) {
   head["number"] = item.number;
   head["stamp"] = utc_text(hal::to_utc(item.stamp)).value_or("");
   head["age_ms"] = Milliseconds(hal::Clock::now() - item.stamp).count();
-  if (item.aim) head["aim"] = json_of(*item.aim);
+  if (item.aim) {
+    SentAim aim = sent_aim(*item.aim);
+    head["aim"] = json_of(aim);
+  }
   head["bytes"] = item.bytes->size();
   head_ = head.dump() + "\n";
   body_ = std::move(item.bytes);

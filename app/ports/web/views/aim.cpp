@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/views/aim.h"
 
-#include <nlohmann/json.hpp>
-
 #include "app/pictures/colour_maps.h"
+#include "app/ports/web/views/view_records.h"
 
 namespace orbwatch::app::web {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json json_of(const SourceColours& colours) {
-  return {{"colour_map", kColourMapNames[colours.map]}, {"range", colours.range}};
-}
-
-}  // namespace
-
-Json json_of(const Aim& aim) {
-  Json weights = Json::array(), colours = Json::array();
-  for (std::size_t n = 0; n < aim.weights.size() && aim.weights[n] > 0; ++n) {
-    weights.push_back(aim.weights[n]);
-    colours.push_back(aim.colours[n] ? json_of(*aim.colours[n]) : Json());
-  }
+SentAim sent_aim(const Aim& aim) {
   const optics::YawPitchRoll& angles = aim.spec.orientation;
-  return {{"yaw", angles.yaw},
-          {"pitch", angles.pitch},
-          {"roll", angles.roll},
-          {"h_fov", optics::h_fov_of(aim.spec)},
-          {"weights", std::move(weights)},
-          {"colours", std::move(colours)}};
+  SentAim sent{angles.yaw, angles.pitch, angles.roll, optics::h_fov_of(aim.spec), {}, {}};
+  for (std::size_t n = 0; n < aim.weights.size() && aim.weights[n] > 0; ++n) {
+    sent.weights.push_back(aim.weights[n]);
+    auto& colours = sent.colours.emplace_back();
+    if (const auto& of = aim.colours[n]) {
+      colours = SentColours{std::string(kColourMapNames[of->map]), of->range};
+    }
+  }
+  return sent;
 }
 
 std::optional<Command> at_present(const Command& command, const Aim& aim) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "app/model/command.h"
@@ -19,10 +18,6 @@ struct Aim {
 };
 
 inline Aim aim_of(const View& view) { return {view.spec, view.weights, view.colours}; }
-
-/// {"yaw", "pitch", "roll", "h_fov": deg, "weights": [one for each source], "colours": [{
-/// "colour_map": its name, "range": [first, last]}, or null, for each source]}. Reentrant.
-nlohmann::ordered_json json_of(const Aim& aim);
 
 /// For a checked command that changes an aim, the command with the aim's present values. Nullopt: a
 /// command of another kind, or for a missing source. Reentrant.

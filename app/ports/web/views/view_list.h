@@ -8,21 +8,21 @@
 
 #include "app/model/command.h"
 #include "app/model/view.h"
-#include "app/ports/web/http/exchange.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/api/route.h"
 #include "app/ports/web/views/aim.h"
+#include "app/ports/web/views/view_records.h"
 #include "app/ports/web/web_context.h"
 
 namespace orbwatch::app::web {
 
 /// Lists all views with their content, the commands that apply to them, and their present aim.
-/// Thread rule: accept on the pipeline's thread, which holds a lock only for a copy; the route on
-/// any thread.
+/// Thread rule: accept on the pipeline's thread, which holds a lock only for a copy; list
+/// on any thread.
 class ViewList {
  public:
   explicit ViewList(const WebContext& context);
 
-  Route route();
+  Answered<ViewsAnswer> list() const;
 
   void accept(const View& view);
 
@@ -30,8 +30,6 @@ class ViewList {
   std::optional<Command> at_present(const Command& command) const;
 
  private:
-  void serve(const ExchangePtr& exchange) const;
-
   const std::vector<std::string> names_;
   const std::vector<PublishedView> views_;
   mutable std::mutex mutex_;

@@ -142,9 +142,11 @@ TEST_F(Served, RefusesWhatIsNotThere) {
   EXPECT_EQ(posted.headers.at("Allow"), "GET");
   EXPECT_EQ(request(port(), "HEAD", "/nothing").status, 404);
   const Answer unnamed = get(port(), "/snapshot.jpg");
-  EXPECT_EQ(unnamed.status, 404);
-  EXPECT_THAT(unnamed.body, HasSubstr("?view=NAME; there are: front, wide"));
-  EXPECT_EQ(get(port(), "/stream.mjpg?view=none").status, 404);
+  EXPECT_EQ(unnamed.status, 400);
+  EXPECT_THAT(unnamed.body, HasSubstr("view is missing; it must be a string"));
+  const Answer unknown = get(port(), "/stream.mjpg?view=none");
+  EXPECT_EQ(unknown.status, 404);
+  EXPECT_THAT(unknown.body, HasSubstr("unknown view none; there are: front, wide"));
 }
 
 TEST_F(Served, RefusesForeignHostNames) {

@@ -62,7 +62,7 @@ async function figuresOfAppliance() {
 function showCondition(status) {
   const isSilent = status.age === null || status.age > kSilenceS;
   const { state, state_text } = status.system;
-  say(isSilent ? texts.silent : state_text, isSilent || state !== 1);
+  say(isSilent ? texts.silent : state_text, isSilent || state !== figures.system.state.codes.running);
 }
 
 function makeSystem(section) {
@@ -81,7 +81,7 @@ function makeSystem(section) {
 const tabs = [
   { name: "live", make: (section) => new Live(section, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
-  { name: "align", make: (section) => new Align(section, figures.cameras ?? {}) },
+  { name: "align", make: (section) => new Align(section, figures.cameras) },
   { name: "process", make: (section) => new Process(section, figures, isAtLeast("integrator"), choose) },
   { name: "system", make: makeSystem },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },

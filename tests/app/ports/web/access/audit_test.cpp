@@ -17,7 +17,7 @@ using nlohmann::json;
 using orbwatch::tests::TemporaryFolder;
 
 json entries(const Audit& audit, std::size_t most = 100000) {
-  return json::parse(audit.newest(most))["entries"];
+  return json::parse(json_text(audit.newest(most)));
 }
 
 Audit::Entry numbered(int number) {
@@ -46,6 +46,11 @@ TEST(Audit, HoldsWhatWasNotedAcrossARestart) {
                           {"after", "lee: operator"},
                           {"result", "done"}}));
   EXPECT_EQ(all[1]["what"], "2");
+  std::string line;
+  std::getline(std::ifstream(folder / "audit.jsonl") >> std::ws, line);
+  EXPECT_EQ(line, R"({"time":"2027-01-15T08:00:00.000000000Z","who":"kim","from":"10.0.0.1",)"
+                  R"("what":"set_user","before":"lee: viewer","after":"lee: operator",)"
+                  R"("result":"done"})");
   struct stat about {};
   ASSERT_EQ(::stat((folder / "audit.jsonl").c_str(), &about), 0);
   EXPECT_EQ(about.st_mode & 07777U, 0600U);

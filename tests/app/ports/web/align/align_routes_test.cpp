@@ -136,19 +136,25 @@ TEST_F(ServedAlignment, AViewIsWhatWasAskedFor) {
 
 TEST_F(ServedAlignment, WhatIsWrongIsNamed) {
   for (const auto& [query, named] : std::vector<std::pair<std::string, std::string>>{
-           {"&yaw=200", "yaw is 200; it must be -180 to 180"},
+           {"&yaw=200", "yaw is 200; it must be -180 to 180 deg"},
            {"&yaw=1e", "yaw is 1e; it must be"},
            {"&pitch=nan", "pitch is nan; it must be"},
-           {"&width=100000", "width is 100000; it must be 16 to 1920"},
-           {"&which=other", "which is other; it must be proposed or in_force"},
+           {"&width=100000", "width is 100000; it must be a whole number, 16 to 1920 px"},
+           {"&height=100.5", "height is 100.5; it must be a whole number"},
+           {"&which=other", "which is other; it must be one of in_force, proposed"},
            {"&model=flat", "model is flat; it must be one of exact, paper, classical"}}) {
     const Answer answer = view(query);
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_THAT(answer.body, HasSubstr(named));
   }
-  const Answer none = get(port(), "/api/v1/alignment/ball.jpg?camera=none");
-  EXPECT_EQ(none.status, 400);
-  EXPECT_THAT(none.body, HasSubstr("name from /api/v1/alignment"));
+  const Answer missing = get(port(), "/api/v1/alignment/ball.jpg");
+  EXPECT_EQ(missing.status, 400);
+  EXPECT_THAT(missing.body, HasSubstr("camera is missing; it must be a string"));
+  for (const char* path : {"ball.jpg?", "view.jpg?", "direction?u=1&v=2&"}) {
+    const Answer none = get(port(), "/api/v1/alignment/" + std::string(path) + "camera=none");
+    EXPECT_EQ(none.status, 404) << path;
+    EXPECT_THAT(none.body, HasSubstr("unknown camera none; there are: " + names[0]));
+  }
   const Answer blind = get(port(), "/api/v1/alignment/ball.jpg?camera=" + names[1]);
   EXPECT_EQ(blind.status, 409);
   EXPECT_THAT(blind.body, HasSubstr("not watched"));

@@ -242,6 +242,7 @@ TEST_F(Commands, DescriptionNamesEveryRouteCommandAndFigure) {
       ASSERT_TRUE(described["properties"].contains(figure)) << kind << "." << figure;
       const json& type = described["properties"][figure]["type"];
       EXPECT_TRUE(number.is_null() || (number.is_number() && type == "number") ||
+                  (number.is_number_integer() && type == "integer") ||
                   (number.is_boolean() && type == "boolean") ||
                   (number.is_string() && type == "string"))
           << kind << "." << figure << " " << number;

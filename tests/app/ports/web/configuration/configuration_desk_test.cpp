@@ -190,10 +190,21 @@ TEST_F(Configuration, OfALimitIsAnotherTextOfTheRecipesFile) {
   EXPECT_EQ(audit["entries"][1]["result"], "refused");
 }
 
-TEST_F(Configuration, WithoutFilesHasNoRoutes) {
+TEST_F(Configuration, WithoutFilesIsRefused) {
   program.files = nullptr;
   start();
-  EXPECT_EQ(get(port(), "/api/v1/configuration", by_token(Role::Administrator)).status, 404);
+  const std::string headers = by_token(Role::Administrator);
+  EXPECT_EQ(get(port(), "/api/v1/configuration", headers).status, 409);
+  const std::string texts = R"({"files": {}})", recipe = R"({"recipe": 1})";
+  const std::map<std::string, std::string> bodies{
+      {"check_configuration", texts},  {"try_configuration", texts},
+      {"check_recipe", recipe},        {"try_recipe", recipe},
+      {"confirm_configuration", "{}"}, {"revert_configuration", "{}"}};
+  for (const auto& [what, body] : bodies) {
+    const Answer refused = post("/api/v1/" + what, body, headers + kJsonHeader);
+    EXPECT_EQ(refused.status, 409) << what;
+    EXPECT_THAT(refused.body, HasSubstr("there are no configuration files")) << what;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/ports/web/served.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
 namespace {
@@ -50,7 +51,24 @@ TEST_F(FleetRoutes, ShowThePictureOfOneThatIsListed) {
   EXPECT_EQ(picture.status, 200);
   EXPECT_EQ(picture.body, "a picture");
   EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg?appliance=02").status, 404);
-  EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg").status, 404);
+  EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg").status, 400);
+}
+
+TEST_F(FleetRoutes, RemoveThoseThatAreGoneAndRecordIt) {
+  const orbwatch::tests::TemporaryFolder folder;
+  state_folder = folder.path();
+  fleet = std::make_shared<Fleet>();
+  start();
+  hear("01", "cell 1", hal::Clock::now() - std::chrono::minutes(1));
+  hear("02", "cell 2", hal::Clock::now());
+  list();
+  const Answer answer = request(port(), "POST", "/api/v1/forget_appliances", kJsonHeader, "{}");
+  EXPECT_EQ(json::parse(answer.body), (json{{"forgotten", 1}}));
+  EXPECT_EQ(list()["appliances"].size(), 1U);
+  const json audit = json::parse(get(port(), "/api/v1/audit").body);
+  ASSERT_EQ(audit["entries"].size(), 1U);
+  EXPECT_EQ(audit["entries"][0]["what"], "forget_appliances");
+  EXPECT_EQ(audit["entries"][0]["after"], "1 removed");
 }
 
 TEST_F(FleetRoutes, SayWhichKeyIsMissingWithoutDds) {

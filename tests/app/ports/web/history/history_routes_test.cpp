@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/model/json.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {
@@ -24,7 +25,7 @@ class History : public Served {
     recipes = {recipe};
     start();
   }
-  void happen(signals::AlarmEventKind kind, double value, const Giver& by = {}) {
+  AlarmNotice happen(signals::AlarmEventKind kind, double value, const Giver& by = {}) {
     AlarmNotice notice;
     notice.number = ++noticed;
     notice.event = {
@@ -33,6 +34,7 @@ class History : public Served {
     notice.stamp = hal::Clock::now();
     notice.by = by;
     sink->accept_event(notice);
+    return notice;
   }
   json alarms(const std::string& query = "") const {
     return json::parse(get(port(), "/api/v1/history/alarms" + query).body)["alarms"];
@@ -65,8 +67,11 @@ TEST_F(History, SaysWhichFiguresThereAre) {
     EXPECT_EQ(answer.status, status) << query;
     return json::parse(answer.body)["error"].get<std::string>();
   };
-  for (const char* query : {"", "?region=weld", "?figure=blur", "?region=a&camera=b&figure=blur"}) {
-    EXPECT_THAT(refusal(query, 400), HasSubstr("?camera=NAME&figure=NAME"));
+  for (const char* query : {"", "?region=weld"}) {
+    EXPECT_THAT(refusal(query, 400), HasSubstr("figure is missing; it must be a string"));
+  }
+  for (const char* query : {"?figure=blur", "?region=a&camera=b&figure=blur"}) {
+    EXPECT_THAT(refusal(query, 400), HasSubstr("either region=NAME or camera=NAME must be set"));
   }
   ASSERT_TRUE(eventually([&] {
     return refusal("?region=none&figure=blur", 404)
@@ -91,6 +96,14 @@ TEST_F(History, OfAlarmsSaysWhatHappenedWhenByWhichLimitAndWhoKnew) {
   EXPECT_TRUE(events[1]["value"].is_null());
   EXPECT_EQ(events[1]["by"], "anna");
   EXPECT_EQ(sink->statistics().alarm_events, 2U);
+}
+
+TEST_F(History, OfAlarmsHasTheReadingsOfAllInterfaces) {
+  const AlarmNotice notice = happen(signals::AlarmEventKind::Raised, 3.5);
+  const StatusNames names = app::tests::make_names();
+  const auto readings = to_json(notice_readings(notice, names));
+  const json event = alarms()[0];
+  for (const auto& [name, value] : readings.items()) EXPECT_EQ(event[name], json(value)) << name;
 }
 
 TEST_F(History, OfAlarmsKeepsTheNewest) {

@@ -57,11 +57,19 @@ TEST_F(Log, IsFiltered) {
 }
 
 TEST_F(Log, RefusesOtherArguments) {
-  for (const char* query : {"?lines=-1", "?lines=", "?lines=1x", "?after=x", "?level=debug"}) {
+  for (const char* query : {"?lines=-1", "?lines=", "?lines=1x", "?after=x",
+                            "?after=18446744073709551616", "?level=debug"}) {
     const Answer answer = get(port(), "/api/v1/log" + std::string(query));
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_THAT(answer.body, HasSubstr(" must be ")) << query;
   }
+}
+
+TEST_F(Served, WithoutALogThereAreNoLines) {
+  start();
+  const Answer answer = get(port(), "/api/v1/log");
+  EXPECT_EQ(answer.status, 404);
+  EXPECT_THAT(answer.body, HasSubstr("keeps no lines"));
 }
 
 }  // namespace

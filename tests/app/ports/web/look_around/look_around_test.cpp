@@ -107,11 +107,10 @@ TEST_F(ServedSphere, ListsWhatCanBeLookedAroundIn) {
   const json list = json::parse(get(port(), "/api/v1/look-around").body);
   EXPECT_EQ(list["spheres"], json::array({"front"}));
   EXPECT_EQ(list["pointed"], json::array({{{"name", "wide"}, {"index", 1}}}));
-  for (const char* target : {"/api/v1/sphere", "/api/v1/sphere?view=wide"}) {
-    const Answer answer = get(port(), target);
-    EXPECT_EQ(answer.status, 404) << target;
-    EXPECT_THAT(answer.body, testing::HasSubstr("look-around"));
-  }
+  EXPECT_EQ(get(port(), "/api/v1/sphere").status, 400);
+  const Answer other = get(port(), "/api/v1/sphere?view=wide");
+  EXPECT_EQ(other.status, 404);
+  EXPECT_THAT(other.body, testing::HasSubstr("unknown view of kind ball wide; there are: front"));
 }
 
 TEST_F(ServedSphere, EdgesOfTheSceneAreListed) {

@@ -179,13 +179,16 @@ TEST_F(ServedPixels, WhatIsWrongIsNamed) {
            {"&u=0&v=48", "the picture has 64x48 pixels"},
            {"&u=-1&v=0", "u is -1; it must be 0 to"},
            {"&u=nan&v=0", "u is nan; it must be"},
-           {"&u=0", "v is missing; it must be 0 to"}}) {
+           {"&u=0", "v is missing; it must be 0 to 16384 px"}}) {
     const Answer answer = pixel(number, query);
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_THAT(answer.body, HasSubstr(named));
   }
+  EXPECT_EQ(get(port(), "/api/v1/live/pixel?u=0&v=0").status, 400);
   EXPECT_EQ(get(port(), "/api/v1/live/pixel?view=front&number=1e99&u=0&v=0").status, 400);
-  EXPECT_EQ(pixel(number, "&u=0&v=0", "none").status, 404);
+  const Answer none = pixel(number, "&u=0&v=0", "none");
+  EXPECT_EQ(none.status, 404);
+  EXPECT_THAT(none.body, HasSubstr("unknown view none; there are: front, wide"));
 }
 
 }  // namespace

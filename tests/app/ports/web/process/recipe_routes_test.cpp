@@ -125,14 +125,15 @@ TEST_F(ServedRecipe, GivesPlacesBackForPixels) {
 }
 
 TEST_F(ServedRecipe, RefusesWhatIsNoPolygon) {
-  const auto refusal = [&](const std::string& query) {
+  const auto refusal = [&](const std::string& query, int status = 400) {
     const Answer answer = polygon(query);
-    EXPECT_EQ(answer.status, 400) << query;
+    EXPECT_EQ(answer.status, status) << query;
     return answer.body;
   };
-  EXPECT_THAT(refusal(""), HasSubstr("pass ?view=NAME"));
-  EXPECT_THAT(refusal("?view=door&pixels=1,2"), HasSubstr("pass ?view=NAME"));
-  EXPECT_THAT(refusal("?view=process"), HasSubstr("no corners"));
+  EXPECT_THAT(refusal(""), HasSubstr("view is missing; it must be a string"));
+  EXPECT_THAT(refusal("?view=door&pixels=1,2", 404),
+              HasSubstr("unknown view door; there are: process"));
+  EXPECT_THAT(refusal("?view=process"), HasSubstr("pixels is missing; it must be a string"));
   for (const char* pixels : {"", "1", "1,2,3", "1,2,", ",1,2", "1,,2", "a,b", "1,2;3,4", "nan,1",
                              "inf,1", "1e9,1", "1e999,1", "0x1,2", " 1,2"}) {
     std::string query = pixels;
@@ -144,8 +145,12 @@ TEST_F(ServedRecipe, RefusesWhatIsNoPolygon) {
   for (int i = 0; i < 64; ++i) many += ",1,2";
   EXPECT_THAT(refusal("?view=process&pixels=" + many), HasSubstr("at most 64 corners"));
   EXPECT_THAT(refusal("?view=process&pixels=1,2,3,4"), HasSubstr("at least 3 corners"));
-  EXPECT_THAT(refusal("?view=process&number=9&pixels=1,2"), HasSubstr("there is no recipe 9"));
+  EXPECT_THAT(refusal("?view=process&number=9&pixels=1,2", 404),
+              HasSubstr("unknown recipe 9; there are: " + std::to_string(recipe.number)));
   EXPECT_EQ(get(port(), std::string(kRecipePath) + "?number=9").status, 404);
+  const Answer wrong = get(port(), std::string(kRecipePath) + "?number=cladding");
+  EXPECT_EQ(wrong.status, 400);
+  EXPECT_THAT(wrong.body, HasSubstr("number is cladding; it must be a whole number, 0 to 65535\""));
 }
 
 }  // namespace

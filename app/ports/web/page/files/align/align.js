@@ -12,7 +12,6 @@ import { SceneView } from "./scene_view.js";
 import { Watched } from "./watched.js";
 
 const kPauseMs = 300;  // period of requests to the appliance
-const kReady = 2, kWorking = 1;
 const kNudgeDeg = 0.05;
 
 async function fetched(path) {
@@ -38,6 +37,7 @@ export class Align {
   // `descriptions` of a camera's figures.
   constructor(root, descriptions) {
     this.root = root;
+    this.states = descriptions.proposal.codes;
     this.choice = element("select", { name: "camera" });
     this.choice.addEventListener("change", () => this.#choose());
     this.said = element("p", { role: "status" });
@@ -143,7 +143,7 @@ export class Align {
 
   #show(camera) {
     const { proposed, in_force: inForce, state } = camera;
-    const isReady = state === kReady, isWorking = state === kWorking;
+    const isReady = state === this.states.ready, isWorking = state === this.states.working;
     this.editor.show(camera);
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
@@ -154,15 +154,16 @@ export class Align {
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);
     this.buttons.accept.disabled = !isReady;
-    this.buttons.discard.disabled = isWorking || (state === 0 && camera.steps === 0);
+    this.buttons.discard.disabled =
+      isWorking || (state === this.states.none && camera.steps === 0);
     this.buttons.revert.disabled = isWorking || !inForce?.method;
   }
 
   #words({ is_watched: isWatched, state, state_text: text, refusal, proposed, in_force: inForce }) {
     if (!isWatched) return texts.align.notWatched;
     if (refusal) return texts.align.refusal(refusal);
-    if (state === kReady) return texts.align.proposal(proposed.method, proposed.quality);
-    if (state === kWorking) return text;
+    if (state === this.states.ready) return texts.align.proposal(proposed.method, proposed.quality);
+    if (state === this.states.working) return text;
     return inForce?.method ? texts.align.inForce(inForce.method, inForce.quality)
       : texts.align.ofRig;
   }

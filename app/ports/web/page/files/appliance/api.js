@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Descriptions of the appliance's figures, and commands to it.
 
-// A figure's description also ends with its unit.
+// A figure's description also ends with its unit. A code has its numbers by name.
 function described(figure) {
   const unit = figure["x-unit"] ?? "";
   const description = figure.description ?? "";
   const end = `, ${unit}`;
   const hasEnd = unit && description.endsWith(end);
-  return { unit, description: hasEnd ? description.slice(0, -end.length) : description };
+  const codes = Object.fromEntries(
+    (figure["x-enum-varnames"] ?? []).map((name, n) => [name, figure.enum[n]]));
+  return { unit, description: hasEnd ? description.slice(0, -end.length) : description, codes };
 }
 
-// Descriptions by kind of component ("system", "cameras"), then by name: {description, unit}.
+// Descriptions by kind of component ("system", "cameras"), then by name: {description, unit, codes}.
 export async function describeFigures() {
   const answer = await fetch("api/v1/openapi.json");
   if (!answer.ok) throw new Error(`status ${answer.status}`);

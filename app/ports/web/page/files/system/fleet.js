@@ -5,7 +5,6 @@ import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kAgainMs = 1000;
-const kWrongFrom = 1;  // least severity that is highlighted: warning
 
 // One appliance, updated in place.
 class Card {
@@ -33,7 +32,7 @@ class Card {
     setText(this.self, appliance.is_self ? texts.fleet.self : "");
     const isGone = appliance.is_gone;
     setText(this.state, isGone ? texts.fleet.gone(new Date(appliance.newest)) : condition);
-    this.state.classList.toggle("wrong", isGone || severity >= kWrongFrom);
+    this.state.classList.toggle("wrong", isGone || severity !== 0);
     setText(this.alarm, texts.fleet.alarms(appliance.alarms, appliance.alarm));
     this.alarm.classList.toggle("wrong", !isGone && appliance.alarms > 0);
     setText(this.about, texts.fleet.about(version, prefix));

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/model/recipe_change.h"
+#include "app/ports/web/configuration/configuration_records.h"
+#include "proc/signals/alarm_board.h"
+
+namespace orbwatch::app {
+
+template <class Visitor>
+void visit(Visitor& v, LimitChange& change) {
+  v.required("alarm", change.alarm, Range::between(1, signals::kMaxAlarms), "Number of the alarm");
+  v.required("region", change.region, "The alarm's region");
+  v.required("signal", change.signal, "The alarm's signal");
+  v.required("limit", change.limit,
+             "low_alarm, low_warning, high_warning, high_alarm or hysteresis");
+  v.required("value", change.value, "In the signal's unit; null: none");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RegionChange& region) {
+  std::optional<std::string> view;
+  std::optional<double> threshold;
+  v.required("name", region.name, "Name of the region");
+  v.optional("directions", region.directions, "Corners as yaw and pitch", "deg");
+  v.optional("points", region.points, "Corners in the machine frame", "mm");
+  v.optional("view", view, "View of a new region");
+  v.optional("hot_spot_threshold", threshold,
+             "Threshold of a new region, degC for a radiometric camera, else percent");
+  v.optional("removed", region.is_removed, "Removes the region with its alarms");
+  const bool has_corners = !region.directions.empty() || !region.points.empty();
+  v.require(region.is_removed != has_corners && !(region.is_removed && view),
+            "a region must have either directions or points, or only removed: true");
+  v.require(view.has_value() == threshold.has_value(),
+            "a region must have both view and hot_spot_threshold, or neither");
+  if (view && threshold) region.added = {std::move(*view), *threshold};
+}
+
+}  // namespace orbwatch::app
+
+namespace orbwatch::app::web {
+
+/// Changes of a recipe. A check ignores the seconds.
+struct RecipeBody {
+  std::uint16_t recipe = 0;
+  RecipeChange change;
+  int seconds = kUsualTrial;
+};
+template <class Visitor>
+void visit(Visitor& v, RecipeBody& body) {
+  v.required("recipe", body.recipe, "Number of the recipe");
+  v.optional("limits", body.change.limits, "Limits of alarms");
+  v.optional("regions", body.change.regions, "New corners, new regions, and removed ones");
+  visit_seconds(v, body.seconds);
+}
+
+}  // namespace orbwatch::app::web

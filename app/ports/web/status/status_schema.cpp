@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/web/status/status_schema.h"
+
+#include <type_traits>
+#include <utility>
+
+#include "app/model/readings.h"
+#include "app/ports/web/api/record_schema.h"
+#include "app/ports/web/status/web_statistics.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+/// Schema of an object that always has all of these members.
+Json object_schema(Json properties) {
+  Json names = Json::array();
+  for (const auto& member : properties.items()) names.push_back(member.key());
+  return {{"type", "object"},
+          {"properties", std::move(properties)},
+          {"additionalProperties", false},
+          {"required", std::move(names)}};
+}
+
+/// Schema of a field in the form of app/model/json.cpp.
+template <class Value>
+Json figure_schema(const FieldInfo& field) {
+  Json figure;
+  if constexpr (std::is_enum_v<Value>) {
+    figure = code_schema<Value>();
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    figure = {{"type", "boolean"}};
+  } else {
+    figure = {{"type", "number"}, {"nullable", true}};
+  }
+  figure["description"] = field.description;
+  if (!field.unit.empty()) figure["x-unit"] = field.unit;
+  return figure;
+}
+
+template <class Part>
+Json part_schema(bool is_named) {
+  Json properties = Json::object();
+  if (is_named) properties["name"] = {{"type", "string"}, {"description", "Its name"}};
+  for_each_field(std::type_identity<Part>{}, [&](const auto& field) {
+    using Value = std::decay_t<decltype(std::invoke(field.get, std::declval<const Part&>()))>;
+    const std::string name(field.name);
+    properties[name] = figure_schema<Value>(field);
+    if constexpr (std::is_enum_v<Value>) {
+      properties[name + "_text"] = {{"type", "string"}, {"description", "The code as text"}};
+    }
+  });
+  return object_schema(std::move(properties));
+}
+
+}  // namespace
+
+Json status_schema() {
+  Status one_of_each;
+  one_of_each.region_count = one_of_each.alarm_count = 1;
+  one_of_each.camera_count = one_of_each.view_count = 1;
+  const StatusNames no_names;
+  Json all = object_schema(
+      {{"stamp",
+        {{"type", "string"},
+         {"format", "date-time"},
+         {"nullable", true},
+         {"description", "Exposure start of the newest frame set, UTC; null: none yet"}}},
+       {"age",
+        {{"type", "number"},
+         {"nullable", true},
+         {"description", "Time since the pipeline's report"},
+         {"x-unit", "s"}}}});
+  Json& properties = all["properties"];
+  const auto add = [&](const Component& component, const auto& part) {
+    const bool is_named = !component.name.empty();
+    Json schema = part_schema<std::decay_t<decltype(part)>>(is_named);
+    if (is_named) {
+      // A list without entries is not sent.
+      properties[std::string(component.kind) + "s"] = list_schema(std::move(schema));
+    } else {
+      all["required"].push_back(component.kind);
+      properties[std::string(component.kind)] = std::move(schema);
+    }
+  };
+  for_each_component(StatusReport{one_of_each, no_names, hal::TimePoint{}, {}}, add);
+  add(kWebComponent, WebStatistics{});
+  return all;
+}
+
+}  // namespace orbwatch::app::web
