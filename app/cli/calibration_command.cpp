@@ -12,7 +12,7 @@
 #include "app/state/private_file.h"
 #include "app/state/state_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kCalibrationUsage =
@@ -171,4 +171,4 @@ CliResult<std::string> calibration_command(const Arguments& arguments) {
       [&](const auto& words) { return run(site_file(config), json, words); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

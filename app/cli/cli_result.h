@@ -8,7 +8,7 @@
 #include "app/exit_status.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Reason why a command does not do what was asked, with its exit status. Any other error is a
 /// failure.
@@ -29,4 +29,4 @@ inline tl::unexpected<CliError> usage_error(const std::string& what) {
   return tl::unexpected(CliError(what + "; see --help", ExitStatus::WrongUsage));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 
 #include "app/cli/cli_result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 struct Arguments;
 
@@ -54,4 +54,4 @@ CliResult<std::string> describe_camera(const Arguments& arguments);
 /// call on.
 const std::atomic<bool>& cancelled_by_signal();
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

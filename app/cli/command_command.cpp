@@ -5,7 +5,7 @@
 #include "app/cli/options/dds_options.h"
 #include "app/cli/options/options.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 CliResult<std::string> command_command(const Arguments& arguments) {
   CommandOptions o;
@@ -29,4 +29,4 @@ CliResult<std::string> command_command(const Arguments& arguments) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

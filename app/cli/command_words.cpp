@@ -3,7 +3,7 @@
 
 #include <charconv>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 std::string capitals(std::string_view text) {
@@ -58,4 +58,4 @@ std::string commands_help() {
   return text;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

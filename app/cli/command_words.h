@@ -7,7 +7,7 @@
 #include "app/model/command.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Parses a command from its name and its arguments, in the units of kCommands. Errors: unknown
 /// command, wrong number of arguments, not a number, out of range. Reentrant.
@@ -16,4 +16,4 @@ Result<Command> parse_command(const std::vector<std::string>& words);
 /// All commands with their arguments, for --help. Reentrant.
 std::string commands_help();
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -7,7 +7,7 @@
 #include "app/cli/options/options.h"
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// About a hundred years: the dates of DDS Security end in 2262.
@@ -82,4 +82,4 @@ CliResult<std::string> dds_keys_command(const Arguments& arguments) {
                      [&](const auto& words) { return make_keys(o, words); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

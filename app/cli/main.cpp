@@ -8,7 +8,7 @@
 #include "app/exit_status.h"
 #include "app/version.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr std::array kCommandTable{
@@ -84,8 +84,9 @@ std::string subcommands_help(std::span<const Subcommand> subcommands) {
   return help;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli
 
 int main(int argc, char** argv) {
-  return orbwatch::app::run_program("orbwatch", {{argv + 1, argv + argc}}, orbwatch::app::dispatch);
+  return orbwatch::app::cli::run_program("orbwatch", {{argv + 1, argv + argc}},
+                                         orbwatch::app::cli::dispatch);
 }

@@ -17,7 +17,7 @@
 #include "app/ports/web/tls/server_certificate.h"
 #include "app/state/state_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kPasswordUsage =
@@ -174,4 +174,4 @@ CliResult<std::string> password_command(const Arguments& arguments) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -12,7 +12,7 @@
 #include "app/cli/options/options.h"
 #include "app/exit_status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 std::atomic<bool> cancelled{false};
@@ -44,4 +44,4 @@ int run_program(const char* name, const Arguments& arguments,
   return static_cast<int>(ExitStatus::Failed);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

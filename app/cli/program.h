@@ -5,7 +5,7 @@
 
 #include "app/cli/cli_result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 struct Arguments;
 
@@ -14,4 +14,4 @@ struct Arguments;
 int run_program(const char* name, const Arguments& arguments,
                 CliResult<std::string> (*run)(const Arguments& arguments));
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kPeriod{100};
@@ -65,4 +65,4 @@ void Progress::write(std::string line) {
   static_cast<void>(::write(output_, line.data(), line.size()) < 0);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Shows the progress of a command to the user: one line on a terminal, rewritten in place and
 /// erased at this object's end. Writes nothing if the output is not a terminal. Thread-bound.
@@ -41,4 +41,4 @@ class Progress {
   Clock::time_point shown_{};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

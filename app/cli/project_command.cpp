@@ -17,7 +17,7 @@
 #include "app/pipeline/views/view_settings.h"
 #include "hal/replay/picture_decoder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kProjectUsage =
@@ -201,4 +201,4 @@ CliResult<std::string> project_command(const Arguments& arguments) {
                      [&](const auto& alone) { return project(o, alone); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ Result<> StagedFolder::replace() {
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

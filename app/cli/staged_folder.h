@@ -5,7 +5,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Folder that is filled under a temporary name beside its place and moved there when it is
 /// complete, so that it is never visible in part. Removed with the object unless it was moved.
@@ -35,4 +35,4 @@ class StagedFolder {
   std::filesystem::path path_;  ///< empty once it was moved
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

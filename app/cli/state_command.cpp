@@ -11,7 +11,7 @@
 #include "app/ports/dds/topics/topic_names.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using std::chrono::milliseconds;
@@ -91,4 +91,4 @@ CliResult<std::string> state_command(const Arguments& arguments) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -11,7 +11,7 @@
 #include "app/model/json.h"
 #include "app/model/utc_text.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 std::string cell(const Reading& reading) {
@@ -68,4 +68,4 @@ std::string state_table(const ReceivedState& state) {
   return text;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 
 #include "app/cli/dds/received_state.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Process state as one line of JSON (RFC 8259): the members of the message, then its components in
 /// the format of app/model/json.h. Bytes that are not UTF-8 become U+FFFD. Reentrant.
@@ -14,4 +14,4 @@ std::string state_json(const ReceivedState& state);
 /// Process state as text for people. Control characters become question marks. Reentrant.
 std::string state_table(const ReceivedState& state);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include "app/cli/options/dds_options.h"
 #include "app/cli/options/options.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 std::vector<Option> declare(SubscribeOptions& o) {
@@ -63,4 +63,4 @@ CliResult<std::string> subscribe_command(const Arguments& arguments) {
       [&](const auto&) { return read_topics(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 
 #include "app/files/finding.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kIndent = "  ";
@@ -96,4 +96,4 @@ std::string record_columns(const std::vector<Fields>& records) {
   return aligned(rows_of(records), kIndent);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -7,7 +7,7 @@
 
 /// Aligned text for people. Underscores in names become spaces, control characters question marks.
 /// Rows and columns with only empty cells and kNoValue are omitted. All reentrant.
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 inline constexpr const char* kNoValue = "-";
 
@@ -27,4 +27,4 @@ std::string record_lines(const std::vector<Fields>& records);
 /// Indented table with a line per field, and a column per record under its first field.
 std::string record_columns(const std::vector<Fields>& records);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

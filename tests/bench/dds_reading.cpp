@@ -31,7 +31,7 @@ std::string own_path() { return std::filesystem::read_symlink("/proc/self/exe").
 
 int read_pictures(int domain, const std::string& topic_name) {
   std::signal(SIGTERM, [](int) { ended = 1; });
-  const bool jpeg = app::is_compressed_topic(topic_name);
+  const bool jpeg = app::cli::is_compressed_topic(topic_name);
   const auto participant = checked(app::Participant::join(domain));
   const auto topic = checked(app::make_topic(
       participant.entity(),
@@ -67,7 +67,7 @@ Readers start_readers(const app::tests::ShippedNetwork& network, const std::stri
           ? std::vector<std::string>{own_path(), "--read", std::to_string(kDomain), topic}
           : orbwatch::tests::foreign_reader(
                 kDomain, {"--topic", topic, "--type",
-                          app::is_compressed_topic(topic) ? "compressed_image" : "image",
+                          app::cli::is_compressed_topic(topic) ? "compressed_image" : "image",
                           "--receive-buffer", "16777216"});
   Readers readers;
   for (int i = 0; i < count; ++i) {

@@ -5,7 +5,7 @@
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kAdviseUsage =
@@ -74,4 +74,4 @@ CliResult<std::string> advise_command(const Arguments& arguments) {
                      [&](const auto&) { return advise(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 
 #include "app/cli/text_table.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 std::string advise_text(const align::Arrangement& arrangement, const align::Advice& a) {
   std::string out;
@@ -54,4 +54,4 @@ std::string advise_json(const align::Advice& a) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 #include "app/daemon/site_check.h"
 #include "app/files/site_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr double kShortest = 1, kLongest = 3600;  // s
@@ -90,4 +90,4 @@ CliResult<std::string> bench_command(const Arguments& arguments) {
       [&](const auto&) { return bench(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/cli/bench/thread_loads.h"
 #include "app/model/status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Median and 99th percentile.
 struct Percentiles {
@@ -70,4 +70,4 @@ Verdict judge(const BenchFigures& figures);
 std::string bench_text(const BenchFigures& figures, const Verdict& verdict);
 std::string bench_json(const BenchFigures& figures, const Verdict& verdict);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

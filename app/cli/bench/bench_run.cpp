@@ -15,7 +15,7 @@
 #include "app/daemon/appliance.h"
 #include "hal/thread/scheduling.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using std::chrono::milliseconds;
@@ -166,4 +166,4 @@ Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::stri
   return figures;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

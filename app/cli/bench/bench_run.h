@@ -11,7 +11,7 @@
 #include "app/files/resolve.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 struct BenchSettings {
   double seconds = 10;
@@ -30,4 +30,4 @@ struct BenchWatch {
 Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
                                const BenchSettings& settings, const BenchWatch& watch);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

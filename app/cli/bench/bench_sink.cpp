@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 Percentiles percentiles(std::vector<float>& samples) {
   if (samples.empty()) return {};
@@ -87,4 +87,4 @@ Status BenchSink::newest() const {
   return newest_;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

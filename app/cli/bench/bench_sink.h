@@ -9,7 +9,7 @@
 #include "app/cli/bench/bench_figures.h"
 #include "app/model/sink.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Keeps the figures of each frame set while it records. Its memory is bounded: figures beyond it
 /// are counted but not ranked.
@@ -62,4 +62,4 @@ class BenchSink final : public Sink {
   std::array<Samples, kMaxViews> latencies_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/daemon/cameras.h"
 #include "app/daemon/site_plan.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Format assumed for cameras that state none and are not connected: the most common one.
@@ -66,4 +66,4 @@ std::vector<std::string> simulate_cameras(Resolved& site) {
   return known;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

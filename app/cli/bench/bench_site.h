@@ -6,7 +6,7 @@
 
 #include "app/files/resolve.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Disables the console for any run, since it would print into the figures.
 void silence_console(Resolved& site);
@@ -17,4 +17,4 @@ void silence_console(Resolved& site);
 /// mistaken for those of a machine. Returns for each camera the source of its format.
 std::vector<std::string> simulate_cameras(Resolved& site);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -7,7 +7,7 @@
 #include "app/cli/text_table.h"
 #include "app/model/json.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -147,4 +147,4 @@ std::string bench_json(const BenchFigures& figures, const Verdict& verdict) {
   return all.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 
 #include "app/cli/bench/bench_figures.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Tolerated share of frame sets or pictures of a view that are late or omitted.
@@ -92,4 +92,4 @@ Verdict judge(const BenchFigures& figures) {
   return verdict;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/health/system_file.h"
 #include "proc/signals/signals.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Processor time in /proc/PID/task/TID/stat: the text after the name, which may contain blanks and
@@ -67,4 +67,4 @@ MemoryFigures memory_figures(const std::filesystem::path& proc) {
           mebibytes("RssFile:"), mebibytes("RssShmem:"), mebibytes("VmLck:")};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Load of a thread of this process.
 struct ThreadLoad {
@@ -36,4 +36,4 @@ struct MemoryFigures {
 
 MemoryFigures memory_figures(const std::filesystem::path& proc = "/proc");
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

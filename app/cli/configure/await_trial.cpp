@@ -7,7 +7,7 @@
 #include "app/cli/progress.h"
 #include "app/files/trial.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -63,4 +63,4 @@ Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& p
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

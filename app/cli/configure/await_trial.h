@@ -6,7 +6,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Time limits for a daemon.
 struct TrialPatience {
@@ -20,4 +20,4 @@ struct TrialPatience {
 /// Reentrant.
 Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& patience = {});
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

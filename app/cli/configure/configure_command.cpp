@@ -15,7 +15,7 @@
 #include "app/model/configuration_files.h"
 #include "app/state/state_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ CliResult<std::string> configure_command(const Arguments& arguments) {
       [&](const auto& words) { return run(o, words); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -12,7 +12,7 @@
 #include "app/ports/dds/topics/topic_writer.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 namespace {
 
@@ -128,4 +128,4 @@ Result<CommandAnswer> send_command(const CommandOptions& options, const Command&
                          "; does orbwatchd run in this domain, with commands enabled?");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

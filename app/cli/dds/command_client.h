@@ -11,7 +11,7 @@
 #include "app/ports/dds/security/participant_security.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 struct CommandOptions {
   int domain = 0;                   ///< DDS domain, 0 to 230
@@ -28,4 +28,4 @@ struct CommandOptions {
 Result<CommandAnswer> send_command(const CommandOptions& options, const Command& command,
                                    const std::atomic<bool>& cancelled);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 #include "app/ports/dds/participant/dds_log.h"
 #include "app/ports/dds/participant/participant.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kListenPeriod{100};
@@ -30,4 +30,4 @@ Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& secu
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 #include "app/ports/dds/security/participant_security.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Joins the domain, with `security` if the appliances have it, and fills `fleet` for `duration`,
 /// or until `cancelled`, which is checked ten times a second. Thread-bound. Errors: as
@@ -18,4 +18,4 @@ Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& secu
                          std::chrono::nanoseconds duration, const std::atomic<bool>& cancelled,
                          Fleet& fleet);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

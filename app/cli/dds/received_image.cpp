@@ -10,7 +10,7 @@
 #include "hal/atomic_file.h"
 #include "hal/jpeg/jpeg_decoder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 void swap_bytes(cv::Mat& words) {
@@ -103,4 +103,4 @@ Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesys
   return save([&bytes] { return cv::imdecode(bytes, cv::IMREAD_UNCHANGED); }, path);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 #include "app/ports/dds/pictures/image_message.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// A received image is refused when its width or height is above this.
 inline constexpr std::uint32_t kMaxImageSide = 16384;
@@ -38,4 +38,4 @@ Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path)
 /// Writes the picture of a JPEG file as PNG. Further error: data that is damaged.
 Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 // Errors do not quote the sender, whose text may contain control characters.
@@ -124,4 +124,4 @@ Result<bool> StateReader::next(std::chrono::nanoseconds timeout, const AcceptSta
   return accepted;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

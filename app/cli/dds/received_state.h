@@ -15,7 +15,7 @@
 #include "app/ports/dds/topics/topic_reader.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// A received process state is refused when one of its lists or texts is longer than this.
 inline constexpr std::size_t kMaxListLength = 1000;
@@ -65,4 +65,4 @@ class StateReader {
   std::string refusal_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

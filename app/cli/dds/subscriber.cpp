@@ -15,7 +15,7 @@
 #include "app/ports/dds/topics/topic_reader.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 namespace {
 
@@ -175,4 +175,4 @@ Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
   return reports;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -12,7 +12,7 @@
 #include "app/ports/dds/security/participant_security.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 struct SubscribeOptions {
   int domain = 0;                              ///< DDS domain, 0 to 230
@@ -37,4 +37,4 @@ struct SubscribeOptions {
 Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
                                            const std::atomic<bool>& cancelled, std::ostream& out);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

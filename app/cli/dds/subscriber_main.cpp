@@ -5,8 +5,8 @@
 
 /// `orbwatch subscribe` as a program of its own, for the demo: built without the other commands.
 int main(int argc, char** argv) {
-  orbwatch::app::Arguments arguments{{"subscribe"}};
+  orbwatch::app::cli::Arguments arguments{{"subscribe"}};
   arguments.words.insert(arguments.words.end(), argv + 1, argv + argc);
-  return orbwatch::app::run_program("orbwatch_subscriber", arguments,
-                                    orbwatch::app::subscribe_command);
+  return orbwatch::app::cli::run_program("orbwatch_subscriber", arguments,
+                                         orbwatch::app::cli::subscribe_command);
 }

@@ -11,7 +11,7 @@
 #include "app/ports/dds/pictures/image_message.h"
 #include "hal/jpeg/jpeg_decoder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 namespace {
 
@@ -228,4 +228,4 @@ Result<> Subscription::save(const std::filesystem::path& folder, const std::stri
   return write_png(path).map([&] { report_.saved = path; });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -14,7 +14,7 @@
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/topics/topic_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// True if the topic of that name carries JPEG pictures.
 bool is_compressed_topic(std::string_view topic);
@@ -107,4 +107,4 @@ class Subscription {
   std::optional<dds_time_t> last_written_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

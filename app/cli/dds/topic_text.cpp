@@ -7,7 +7,7 @@
 
 #include "app/model/json.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -66,4 +66,4 @@ std::string topic_json(const TopicFigures& figures) {
                   {"refusal", figures.refusal}});
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// One valid sample of a topic.
 struct TopicSample {
@@ -35,4 +35,4 @@ std::string topic_line(const TopicFigures& figures);
 std::string topic_json(const TopicSample& sample);
 std::string topic_json(const TopicFigures& figures);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

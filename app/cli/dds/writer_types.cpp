@@ -5,7 +5,7 @@
 
 #include "app/model/plain_text.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Limit for the names of foreign types, which are arbitrary.
@@ -57,4 +57,4 @@ std::string WriterTypes::unreadable(const TopicReader& reader, hal::TimePoint no
   return now - first->second >= kDiscovery ? first->first : std::string();
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

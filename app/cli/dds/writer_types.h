@@ -9,7 +9,7 @@
 #include "app/ports/dds/topics/topic_reader.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// ROS 2's name of a type: "sensor_msgs/msg/Image" for "sensor_msgs::msg::dds_::Image_"; other
 /// names are unchanged. One line for any input. Reentrant.
@@ -39,4 +39,4 @@ class WriterTypes {
   std::map<std::string, Types> topics_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -15,7 +15,7 @@
 #include "proc/optics/ball_model.h"
 #include "proc/optics/vec.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kDescribeCameraNotes =
@@ -203,4 +203,4 @@ CliResult<std::string> describe_camera(const Arguments& arguments) {
       [&](const auto&) { return describe(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

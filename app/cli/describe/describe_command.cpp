@@ -12,7 +12,7 @@
 #include "app/ports/web/api/http_manual.h"
 #include "app/ports/web/routes.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Runs a subject that takes no options.
@@ -74,4 +74,4 @@ CliResult<std::string> describe_command(const Arguments& arguments) {
   return usage_error("say what to describe: " + known);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 #include "app/exit_status.h"
 #include "app/model/command.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Escapes text for man(7): no line is a request, no hyphen a dash.
@@ -165,4 +165,4 @@ std::string bash_completion(std::span<const Subcommand> commands,
          "complete -o bashdefault -o default -F _orbwatch orbwatch\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 
 #include "app/cli/command.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Manual page of `orbwatch` in the language of man(7), generated from the declarations of its
 /// commands. Subjects are those of `orbwatch describe`.
@@ -16,4 +16,4 @@ std::string man_page(std::span<const Subcommand> commands, std::span<const Subco
 std::string bash_completion(std::span<const Subcommand> commands,
                             std::span<const Subcommand> subjects);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -18,7 +18,7 @@
 #include "proc/optics/vec.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Scale of the resolution map's picture.
@@ -231,4 +231,4 @@ CliResult<std::string> describe_view(const Arguments& arguments) {
       [&](const auto&) { return describe(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -11,7 +11,7 @@
 #include "app/pictures/picture_file.h"
 #include "hal/replay/picture_decoder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kDetectUsage =
@@ -108,4 +108,4 @@ CliResult<std::string> detect_command(const Arguments& arguments) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

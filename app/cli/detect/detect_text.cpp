@@ -9,7 +9,7 @@
 #include "app/alignment/found_outline.h"
 #include "proc/optics/vec.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// The reflected field of view, degrees.
@@ -62,4 +62,4 @@ std::string detect_json(const DetectedBall& ball) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

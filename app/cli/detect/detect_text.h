@@ -7,7 +7,7 @@
 #include "proc/align/detect/ball_detector.h"
 #include "proc/optics/outline.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// A ball in a picture.
 struct DetectedBall {
@@ -23,4 +23,4 @@ std::string detect_text(const DetectedBall& ball);
 /// One JSON object (RFC 8259), as documented in `orbwatch detect --help`.
 std::string detect_json(const DetectedBall& ball);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 #include "proc/align/detect/luminance.h"
 #include "proc/align/first_plane.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 const cv::Scalar kColour(0, 255, 0);
@@ -45,4 +45,4 @@ Result<> write_overlay(const std::filesystem::path& path, const Picture& picture
                                                            static_cast<std::ptrdiff_t>(rgb.step)}));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

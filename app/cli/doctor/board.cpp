@@ -8,7 +8,7 @@
 #include "app/files/toml_reader.h"
 #include "app/health/system_file.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ const BoardCamera* find_camera(const Board& board, std::string_view wanted) {
   return found == board.cameras.end() ? nullptr : &*found;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

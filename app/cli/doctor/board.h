@@ -12,7 +12,7 @@
 #include "proc/image/result.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 /// Resistor of a line from power-on until a program sets it.
 enum class Pull : std::uint8_t { Unknown, None, Up, Down };
@@ -104,4 +104,4 @@ const BoardLines* find_lines(const Board& board, std::string_view name);
 /// The camera whose sensor's name is part of `wanted`; nullptr: unknown.
 const BoardCamera* find_camera(const Board& board, std::string_view wanted);
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -4,7 +4,7 @@
 #include "app/cli/doctor/checks.h"
 
 /// Checks of configuration, board, kernel and temperature.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 constexpr double kNearlyHot = 10;  // K below the temperature at which the board slows down
@@ -118,4 +118,4 @@ Diagnoses check_heat(const Facts& facts) {
   return found;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -5,7 +5,7 @@
 #include "hal/lines/find_line.h"
 
 /// Checks of memory for cameras, cameras, digital lines.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 bool needs_heaps(const Configuration& site) {
@@ -161,4 +161,4 @@ Diagnoses check_lines(const Facts& facts) {
   return found;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -7,7 +7,7 @@
 #include "hal/network.h"
 
 /// Checks of ports, buffers and packet filter.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 constexpr std::int64_t kLeastBuffer = std::int64_t{8} << 20;  // bytes; the package sets 16 MiB
@@ -125,4 +125,4 @@ Diagnoses check_firewall(const Facts& facts) {
   return nft_diagnoses(facts, *filter);
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

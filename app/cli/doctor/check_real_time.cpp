@@ -6,7 +6,7 @@
 #include "hal/thread/scheduling.h"
 
 /// Checks of the conditions for the frame path's deadlines and time stamps.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
@@ -130,4 +130,4 @@ Diagnoses check_watchdog(const Facts& facts) {
   return found;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

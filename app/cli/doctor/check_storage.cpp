@@ -4,7 +4,7 @@
 #include "app/cli/doctor/checks.h"
 
 /// Checks of space for state that must survive a restart, and for pictures.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 constexpr double kFull = 20;         // MiB; an accepted alignment may no longer be kept
@@ -38,4 +38,4 @@ Diagnoses check_disk(const Facts& facts) {
   return found;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

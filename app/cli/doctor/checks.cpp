@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 struct Check {
@@ -39,4 +39,4 @@ Diagnoses diagnose(const Facts& facts) {
   return all;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -6,7 +6,7 @@
 
 /// Checks: conclusions from facts. Each returns a line or more without the check's name, or none if
 /// the configuration does not need it. All pure and reentrant.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 Diagnoses check_configuration(const Facts& facts);
 Diagnoses check_board(const Facts& facts);
@@ -26,4 +26,4 @@ Diagnoses check_heat(const Facts& facts);
 /// Runs all of them, in this order, with their names.
 Diagnoses diagnose(const Facts& facts);
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

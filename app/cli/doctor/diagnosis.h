@@ -9,7 +9,7 @@
 
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 enum class Level : std::uint8_t {
   Ok,
@@ -37,4 +37,4 @@ inline Diagnosis fault(std::string text, std::string remedy) {
   return {.level = Level::Fault, .text = std::move(text), .remedy = std::move(remedy)};
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

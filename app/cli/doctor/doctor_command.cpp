@@ -9,7 +9,7 @@
 #include "app/cli/options/options.h"
 #include "app/files/site_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 Result<std::string> examine(const std::filesystem::path& file, bool json) {
@@ -44,4 +44,4 @@ CliResult<std::string> doctor_command(const Arguments& arguments) {
       [&](const auto&) { return examine(site_file(config), json); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

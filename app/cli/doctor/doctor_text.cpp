@@ -6,7 +6,7 @@
 
 #include "app/cli/text_table.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 std::string counted(std::ptrdiff_t count, const std::string& what) {
@@ -55,4 +55,4 @@ std::string doctor_json(const Diagnoses& diagnoses) {
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

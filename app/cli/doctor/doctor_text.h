@@ -5,7 +5,7 @@
 
 #include "app/cli/doctor/diagnosis.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 /// The worst level.
 Level worst(const Diagnoses& diagnoses);
@@ -20,4 +20,4 @@ std::string doctor_table(const Diagnoses& diagnoses);
 /// "remedy"}]}. Bytes that are not UTF-8 become U+FFFD.
 std::string doctor_json(const Diagnoses& diagnoses);
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -14,7 +14,7 @@
 
 /// Input of the checks, which do not access the computer themselves. Texts come from devices and
 /// files and may contain anything; nullopt marks facts that cannot be determined here.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 struct ConfigurationFacts {
   std::filesystem::path file;
@@ -126,4 +126,4 @@ struct Facts {
   FirewallFacts firewall;
 };
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -20,7 +20,7 @@
 #include "hal/lines/gpio/gpio_lines.h"
 #include "hal/module/load_module.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ Facts gather(const Sources& sources, const fs::path& file) {
   return facts;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

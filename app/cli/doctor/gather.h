@@ -4,7 +4,7 @@
 #include "app/cli/doctor/facts.h"
 #include "app/cli/doctor/sources.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 /// Reads all facts for the configuration `file`. Changes nothing, disturbs no stream, keeps no
 /// port. Unreadable facts remain unknown, whatever the files contain. Waits for programs, 5 s each
@@ -27,4 +27,4 @@ std::string listener_on(const std::filesystem::path& proc, int port);
 /// A time in systemd's notation ("1min 30s", "infinity", "0"), s; nullopt: not a time.
 std::optional<double> parse_time_span(std::string_view text);
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

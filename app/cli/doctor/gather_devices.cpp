@@ -13,7 +13,7 @@
 #include "hal/v4l2/device/v4l2_list.h"
 
 /// Facts about memory for cameras, cameras, chips of digital lines.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ void gather_devices(const Sources& sources, Facts& facts) {
   if (has_lines) facts.chips = sources.chips();
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -6,7 +6,7 @@
 #include "app/health/system_file.h"
 
 /// Facts about the board, and about the kernel with the drivers that the configuration needs.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,4 +106,4 @@ void gather_kernel(const Sources& sources, Facts& facts) {
   }
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -8,7 +8,7 @@
 #include "hal/thread/scheduling.h"
 
 /// Limits of the kernel for the service, or for this program.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ void gather_limits(const Sources& sources, Facts& facts) {
   }
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

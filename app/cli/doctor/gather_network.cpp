@@ -14,7 +14,7 @@
 #include "hal/thread/file_descriptor.h"
 
 /// Facts about ports, limits of the network, packet filter.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ void gather_network(const Sources& sources, Facts& facts) {
   if (facts.site) gather_ports(sources, facts);
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using Json = nlohmann::json;
@@ -103,4 +103,4 @@ bool names_port(const PortRanges& ranges, int port) {
       ranges, [port](const auto& range) { return range.first <= port && port <= range.second; });
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 using PortRanges = std::vector<std::pair<int, int>>;
 
@@ -25,4 +25,4 @@ std::optional<PacketFilter> read_packet_filter(const std::string& json);
 
 bool names_port(const PortRanges& ranges, int port);
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

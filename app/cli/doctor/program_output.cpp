@@ -16,7 +16,7 @@
 #include "hal/clock.h"
 #include "hal/thread/file_descriptor.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using hal::FileDescriptor;
@@ -127,4 +127,4 @@ std::optional<std::string> program_output(const std::filesystem::path& program,
   return child.end_by(deadline) ? text : std::nullopt;
 }
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 struct ProgramLimits {
   std::chrono::milliseconds time{5000};
@@ -22,4 +22,4 @@ std::optional<std::string> program_output(const std::filesystem::path& program,
                                           const std::vector<std::string>& arguments,
                                           const ProgramLimits& limits = {});
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -12,7 +12,7 @@
 #include "hal/lines/line.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 
 /// Sources of facts; tests use trees and devices of their own.
 struct Sources {
@@ -39,4 +39,4 @@ struct Sources {
 /// Sources of this computer.
 Sources this_computer();
 
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

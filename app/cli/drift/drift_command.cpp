@@ -6,7 +6,7 @@
 #include "app/cli/options/options.h"
 #include "app/files/rig_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kDriftUsage =
@@ -91,4 +91,4 @@ CliResult<std::string> drift_command(const Arguments& arguments) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 #include "hal/replay/picture_decoder.h"
 #include "hal/replay/picture_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLim
   return run;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/cli/progress.h"
 #include "proc/align/drift/drift_monitor.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Pictures of one camera in the order in which they were taken.
 struct DriftSequence {
@@ -40,4 +40,4 @@ struct DriftRun {
 Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLimits& limits,
                        const DriftSequence& sequence, Progress& progress);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 
 #include "proc/optics/vec.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using optics::Outline;
@@ -94,4 +94,4 @@ std::string drift_json(const DriftRun& run, const Outline& stored) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -15,7 +15,7 @@
 #include "app/ports/dds/security/signed_document.h"
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -304,4 +304,4 @@ Result<Folders> make_keys(const KeystoreRequest& request, std::chrono::sys_secon
               "shuts out everybody who has them");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/ports/dds/security/access_documents.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Rights that orbwatchd needs for these topics.
 TopicAccess appliance_access(std::string_view prefix);
@@ -54,4 +54,4 @@ std::filesystem::path enclave_folder(const std::filesystem::path& keystore,
 Result<std::vector<std::filesystem::path>> make_keys(const KeystoreRequest& request,
                                                      std::chrono::sys_seconds now);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "app/state/state_folder.h"
 #include "hal/lines/gpio/gpio_lines.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ CliResult<std::string> lines_command(const Arguments& arguments) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -13,7 +13,7 @@
 #include "hal/module/module_camera.h"
 #include "hal/v4l2/device/v4l2_list.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr double kUsualSeconds = 4, kMostSeconds = 3600;
@@ -105,4 +105,4 @@ CliResult<std::string> list_command(const Arguments& arguments) {
       [&](const auto&) { return o.appliances ? list_appliances(o) : list_devices(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

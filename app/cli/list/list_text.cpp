@@ -8,7 +8,7 @@
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/fleet/fleet_records.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -141,4 +141,4 @@ std::string appliances_table(const std::vector<Fleet::Entry>& appliances) {
   return record_lines(records);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -7,7 +7,7 @@
 #include "app/model/fleet.h"
 #include "hal/inventory.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// An inventory as one JSON document (RFC 8259). Bytes that are not UTF-8 become U+FFFD.
 std::string list_json(const hal::Inventory& inventory);
@@ -19,4 +19,4 @@ std::string list_table(const hal::Inventory& inventory);
 std::string appliances_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now);
 std::string appliances_table(const std::vector<Fleet::Entry>& appliances);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include "app/files/rig_file.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 Result<> set_ball(const std::string& value, std::optional<optics::Outline>& ball) {
@@ -162,4 +162,4 @@ Result<optics::RigCamera> find_camera(const optics::Rig& rig, const std::string&
   return fail("there is no camera " + name + "; there are " + known);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/rig.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Cameras of a command: some of a rig's, or one described by options.
 struct CameraOptions {
@@ -47,4 +47,4 @@ Result<> check_picture_size(const ChosenCamera& camera, const Size& picture);
 /// Finds the rig's camera of that name. The error lists the existing ones.
 Result<optics::RigCamera> find_camera(const optics::Rig& rig, const std::string& name);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/options/dds_options.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 Option domain_option(int& domain) {
   return {"domain", 0, "N", "DDS domain, 0 to 230 (default 0)", [&domain](const std::string& v) {
@@ -42,4 +42,4 @@ Option timeout_option(std::chrono::milliseconds& timeout) {
           }};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

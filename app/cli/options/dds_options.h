@@ -8,7 +8,7 @@
 #include "app/cli/options/options.h"
 #include "app/ports/dds/security/participant_security.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Options for domain and topics of the orbwatchd that a command communicates with.
 Option domain_option(int& domain);
@@ -20,4 +20,4 @@ Option security_option(std::optional<SecuritySettings>& security);
 /// Option for the limit of the wait for an answer.
 Option timeout_option(std::chrono::milliseconds& timeout);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -10,7 +10,7 @@
 
 #include "app/cli/options/declaration.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr int kFirstLong = 1000;
@@ -144,4 +144,4 @@ std::function<Result<>(const std::string&)> list_option(std::vector<std::string>
   };
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -12,7 +12,7 @@
 #include "proc/image/result.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Option of a command: declared once, for parsing and for --help.
 struct Option {
@@ -105,4 +105,4 @@ std::function<Result<>(const std::string&)> number_option(std::string name, Numb
   };
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -3,7 +3,7 @@
 
 #include "app/pipeline/views/view_settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 std::vector<Option> view_options(optics::ViewSpec& view) {
   return {
@@ -31,4 +31,4 @@ std::vector<Option> view_options(optics::ViewSpec& view) {
   };
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include "app/cli/options/options.h"
 #include "proc/optics/view_projection.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Default values of a view.
 inline constexpr optics::ViewSpec kDefaultView{
@@ -15,4 +15,4 @@ inline constexpr optics::ViewSpec kDefaultView{
 /// Options that describe a view; they write into `view`, which outlives them.
 std::vector<Option> view_options(optics::ViewSpec& view);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -7,7 +7,7 @@
 #include "app/files/rig_edit.h"
 #include "app/files/rig_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kPlaceUsage =
@@ -86,4 +86,4 @@ CliResult<std::string> place_command(const Arguments& arguments) {
                      [&](const auto&) { return place(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// `text` as U,V=X,Y,Z.
@@ -130,4 +130,4 @@ std::vector<Option> place_options(PlaceOptions& o) {
   return options;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

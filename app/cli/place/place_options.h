@@ -10,7 +10,7 @@
 #include "app/cli/options/view_options.h"
 #include "app/cli/place/tag_options.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// One camera's options.
 struct PlaceCameraOptions {
@@ -36,4 +36,4 @@ struct PlaceOptions {
 /// The options; they write into `options`, which outlives them.
 std::vector<Option> place_options(PlaceOptions& options);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -13,7 +13,7 @@
 #include "hal/replay/picture_decoder.h"
 #include "proc/optics/view_projection.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using align::PlaceRequest;
@@ -113,4 +113,4 @@ CliResult<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& 
   return request;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include "proc/align/place/placement.h"
 #include "proc/optics/rig.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// The request to be solved: the options, with the ball, the lenses and the outlines of the rig,
 /// and the tags, and outlines that it lacks, as pictures show them. Points with the same
@@ -15,4 +15,4 @@ namespace orbwatch::app {
 CliResult<align::PlaceRequest> place_request(const PlaceOptions& options, const optics::Rig& rig,
                                              Progress& progress);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

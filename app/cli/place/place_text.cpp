@@ -7,7 +7,7 @@
 
 #include "app/cli/text_table.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using align::PlacedCamera;
@@ -130,4 +130,4 @@ std::string place_json(const PlaceRequest& request, const Placement& placement) 
   return json.dump(2) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 
 #include "proc/align/place/placement.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// For people: poses, how well they are known, and by how much each point is off.
 std::string place_text(const align::PlaceRequest& request, const align::Placement& placement);
@@ -13,4 +13,4 @@ std::string place_text(const align::PlaceRequest& request, const align::Placemen
 /// One JSON object (RFC 8259), as documented in `orbwatch place --help`.
 std::string place_json(const align::PlaceRequest& request, const align::Placement& placement);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

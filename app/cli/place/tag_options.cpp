@@ -6,7 +6,7 @@
 
 #include "app/files/text_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using align::PrintedTag;
@@ -76,4 +76,4 @@ Result<> check_tags(const std::vector<PrintedTag>& tags) {
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 #include "proc/align/place/tags/printed_tag.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// `text` as ID=twelve numbers, the corners, or ID=SIZE and nine numbers: the centre and the
 /// directions to the right and down as one reads the tag. Error: anything else.
@@ -22,4 +22,4 @@ Result<std::vector<align::PrintedTag>> read_tags(const std::filesystem::path& fi
 /// Error: an id given twice.
 Result<> check_tags(const std::vector<align::PrintedTag>& tags);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

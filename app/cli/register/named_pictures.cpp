@@ -6,7 +6,7 @@
 #include "app/cli/options/options.h"
 #include "hal/replay/picture_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 std::vector<Picture> NamedPictures::views() const {
   std::vector<Picture> all;
   for (const hal::DecodedPicture& decoded : pictures) all.push_back(decoded.picture);
@@ -35,4 +35,4 @@ CliResult<NamedPictures> read_named_pictures(const std::string& word) {
   return named;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 #include "app/cli/cli_result.h"
 #include "hal/replay/picture_decoder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// NAME=PATH of a command line, and the pictures there.
 struct NamedPictures {
@@ -24,4 +24,4 @@ CliResult<NamedPictures> read_named_pictures(const std::string& word);
 
 inline constexpr std::size_t kMostPictures = 120;
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

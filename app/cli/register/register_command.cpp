@@ -13,7 +13,7 @@
 #include "app/files/rig_edit.h"
 #include "app/files/rig_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kRegisterUsage =
@@ -145,4 +145,4 @@ CliResult<std::string> register_command(const Arguments& arguments) {
                      });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

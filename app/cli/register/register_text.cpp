@@ -7,7 +7,7 @@
 
 #include "proc/optics/rotation.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 std::array<double, 9> by_rows(const optics::Mat3& m) {
@@ -61,4 +61,4 @@ std::string register_json(const RegisteredCamera& camera) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 
 #include "proc/align/register/camera_registration.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Two cameras of a rig, and the second one's registration to the first.
 struct RegisteredCamera {
@@ -20,4 +20,4 @@ std::string register_text(const RegisteredCamera& camera);
 /// One JSON object (RFC 8259), as documented in `orbwatch register --help`.
 std::string register_json(const RegisteredCamera& camera);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

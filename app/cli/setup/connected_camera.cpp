@@ -13,7 +13,7 @@
 #include "hal/module/module_camera.h"
 #include "hal/v4l2/device/v4l2_list.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ std::string back_end_text(const BackEndSettings& back_end) {
          "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

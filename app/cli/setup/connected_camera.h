@@ -7,7 +7,7 @@
 #include "app/files/camera_settings.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Source of a camera's pictures, and its name, if that is known.
 struct CameraSource {
@@ -27,4 +27,4 @@ Result<std::vector<CameraSource>> connected_cameras();
 /// The lines of a site file that state the back-end of a camera.
 std::string back_end_text(const BackEndSettings& back_end);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Records a camera until there are enough pictures. Callbacks come on the camera's thread.
@@ -95,4 +95,4 @@ std::vector<Result<CameraRecord>> record(std::span<const std::unique_ptr<hal::Ca
   return records;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -11,7 +11,7 @@
 #include "hal/camera.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Pictures that a camera delivered. Their time is on the steady clock, that of a replayed
 /// recording since its first picture.
@@ -25,4 +25,4 @@ struct CameraRecord {
 std::vector<Result<CameraRecord>> record(std::span<const std::unique_ptr<hal::Camera>> cameras,
                                          std::size_t count, std::chrono::seconds patience);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

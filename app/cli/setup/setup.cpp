@@ -13,7 +13,7 @@
 #include "proc/align/obstacle/standing_box.h"
 #include "proc/optics/lens.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// A ball centre by tape and one by a pose differ by no more than that, ball radii.
@@ -246,4 +246,4 @@ Result<> align_cameras(Setup& setup, const std::filesystem::path& folder, Progre
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

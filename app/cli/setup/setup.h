@@ -13,7 +13,7 @@
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// A camera on its way into a rig.
 struct SetupCamera {
@@ -68,4 +68,4 @@ optics::Rig rig_of(const Setup& setup);
 /// no camera shows a ball, or what is known contradicts itself.
 Result<> align_cameras(Setup& setup, const std::filesystem::path& folder, Progress& progress);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

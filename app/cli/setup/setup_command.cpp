@@ -12,7 +12,7 @@
 #include "app/cli/setup/site_files.h"
 #include "app/daemon/cameras.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kSetupUsage =
@@ -131,4 +131,4 @@ CliResult<std::string> setup_command(const Arguments& arguments) {
                      [&](const auto&) { return set_up(o); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -9,7 +9,7 @@
 #include "app/files/plain_names.h"
 #include "proc/optics/rotation.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// `word` as NAME=VALUE; without a name, `otherwise`.
@@ -176,4 +176,4 @@ CliResult<> read_cameras(const SetupOptions& o, Setup& setup) {
       .and_then([&] { return check_distances(setup); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

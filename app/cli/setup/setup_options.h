@@ -9,7 +9,7 @@
 #include "app/cli/setup/setup.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// The options of `orbwatch setup` as they were given.
 struct SetupOptions {
@@ -31,4 +31,4 @@ CliResult<> read_machine(const SetupOptions& options, Setup& setup);
 /// an option for no camera.
 CliResult<> read_cameras(const SetupOptions& options, Setup& setup);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

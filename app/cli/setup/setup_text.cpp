@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 const char* state_of(const Setup& setup, const SetupCamera& camera) {
@@ -51,4 +51,4 @@ std::string setup_json(const Setup& setup, const std::filesystem::path& site) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

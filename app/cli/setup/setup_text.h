@@ -6,7 +6,7 @@
 
 #include "app/cli/setup/setup.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Found and missing facts of a site, for people. Both reentrant.
 std::string setup_text(const Setup& setup, const std::filesystem::path& site);
@@ -14,4 +14,4 @@ std::string setup_text(const Setup& setup, const std::filesystem::path& site);
 /// The same as one JSON document.
 std::string setup_json(const Setup& setup, const std::filesystem::path& site);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -11,7 +11,7 @@
 #include "app/files/toml_text.h"
 #include "hal/atomic_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 std::string comments(const std::vector<std::string>& sentences) {
@@ -179,4 +179,4 @@ Result<> place_site(const Setup& setup, const std::filesystem::path& folder) {
   return write_site(setup, folder);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

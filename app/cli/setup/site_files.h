@@ -6,7 +6,7 @@
 #include "app/cli/setup/setup.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// The files of a site, by their names in its folder.
 inline constexpr const char* kSiteFile = "site.toml";
@@ -22,4 +22,4 @@ Result<> check_place(const std::filesystem::path& folder, bool overwrite);
 /// gets nowhere. Error: what the check refuses; files that cannot be written.
 Result<> place_site(const Setup& setup, const std::filesystem::path& folder);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

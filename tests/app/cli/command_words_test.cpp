@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using testing::ElementsAre;
@@ -54,4 +54,4 @@ TEST(CommandsHelp, NamesEveryCommandAndArgument) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

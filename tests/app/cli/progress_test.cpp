@@ -17,7 +17,7 @@
 namespace orbwatch::tests {
 namespace {
 
-using app::Progress;
+using app::cli::Progress;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -11,7 +11,7 @@
 
 #include "tests/app/cli/equal_json.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 constexpr double kNotValid = signals::kNotValid;
@@ -160,4 +160,4 @@ TEST(StateTable, OfNothingAndOfTextsThatATerminalWouldObey) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

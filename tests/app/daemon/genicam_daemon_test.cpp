@@ -218,7 +218,7 @@ class ResultsOverDds {
   const std::vector<NumberedResult>& seen() const { return seen_; }
 
  private:
-  app::StateReader reader_{"orbwatch"};
+  app::cli::StateReader reader_{"orbwatch"};
   std::vector<NumberedResult> seen_;
 };
 

@@ -52,13 +52,13 @@ class StartUp : public Daemon {
   /// Makes keys valid from `from`, relative to now.
   void make_keys(const std::string& name, std::chrono::hours from) const {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-    const auto made = app::make_keys({folder / name,
-                                      {kDomain, kDomain},
-                                      100,
-                                      app::appliance_access("orbwatch"),
-                                      app::controller_access("orbwatch"),
-                                      app::bulk_topics("orbwatch")},
-                                     now + from);
+    const auto made = app::cli::make_keys({folder / name,
+                                           {kDomain, kDomain},
+                                           100,
+                                           app::cli::appliance_access("orbwatch"),
+                                           app::cli::controller_access("orbwatch"),
+                                           app::cli::bulk_topics("orbwatch")},
+                                          now + from);
     ASSERT_TRUE(made) << made.error().message;
   }
 

@@ -6,7 +6,7 @@
 
 #include "tests/app/cli/bench/figures.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 TEST(BenchText, IsOneLineOfJson) {
@@ -53,4 +53,4 @@ TEST(Percentiles, AreThoseOfTheSamples) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 
 #include "tests/app/cli/bench/figures.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 void expect_part(const std::string& text, const std::string& part) {
@@ -79,4 +79,4 @@ TEST(BenchVerdict, AdvisesTheSettingBehindTheCostliestStage) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

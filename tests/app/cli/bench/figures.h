@@ -4,7 +4,7 @@
 #include "app/cli/bench/bench_figures.h"
 #include "proc/signals/signals.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 
 /// Figures of 30 frame sets per second for ten seconds on 4 cores: the pipeline's thread is busy
 /// for half of the period, all cores for a quarter.
@@ -29,4 +29,4 @@ inline BenchFigures some_figures() {
   return figures;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -12,7 +12,7 @@
 #include "proc/signals/signals.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 TEST(ThreadLoads, AreReadAsTheKernelWritesThem) {
@@ -71,4 +71,4 @@ TEST(MemoryFigures, AreThoseOfTheProcess) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

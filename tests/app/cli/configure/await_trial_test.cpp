@@ -8,7 +8,7 @@
 #include "app/files/trial.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using std::chrono::milliseconds;
@@ -70,4 +70,4 @@ TEST_F(AwaitTrial, SaysThatADaemonIsSilent) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -78,4 +78,4 @@ TEST_F(ImageFileTest, AFileThatCannotBeReplacedStays) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 /// Message that owns its data.
@@ -115,4 +115,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& damage) { return std::string(damage.param.name); });
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -16,7 +16,7 @@
 #include "tests/app/ports/dds/foreign_writer.h"
 #include "tests/app/ports/dds/test_status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using std::chrono::milliseconds;
@@ -215,4 +215,4 @@ TEST_F(StateReaderTest, SkipsInvalidStates) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

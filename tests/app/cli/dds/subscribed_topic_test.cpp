@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 TEST(SubscribedTopic, KnowTheirContent) {
@@ -34,4 +34,4 @@ TEST(SubscribedTopic, FileNamesStayInTheirFolder) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -20,7 +20,7 @@
 #include "tests/app/ports/dds/test_views.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using testing::HasSubstr;
@@ -355,4 +355,4 @@ TEST_F(SubscriberTest, WhatCannotBeDoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 const TopicFigures kBrought{.topic = "rt/front",
@@ -53,4 +53,4 @@ TEST(TopicText, IsValidWhateverTheSenderSays) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

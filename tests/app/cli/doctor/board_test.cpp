@@ -8,7 +8,7 @@
 
 #include "tests/app/health/made_up_tree.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST(Boards, WrongFilesAreNamedAndTheOthersRead) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

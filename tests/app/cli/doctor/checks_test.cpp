@@ -11,7 +11,7 @@
 #include "hal/lines/simulated_lines.h"
 
 /// Runs each check on facts of a fault-free board with one of them changed.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -404,4 +404,4 @@ TEST_F(Checks, HeatAndSupply) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

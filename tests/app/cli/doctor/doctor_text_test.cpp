@@ -6,7 +6,7 @@
 
 #include "tests/app/cli/equal_json.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using tests::expect_equal_json;
@@ -53,4 +53,4 @@ TEST(DoctorText, TheWorstCounts) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

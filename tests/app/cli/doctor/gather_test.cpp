@@ -18,7 +18,7 @@
 #include "tests/app/health/made_up_tree.h"
 
 /// Gathers facts of a synthetic board: a folder with its /proc, /sys and /dev.
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using testing::Contains;
@@ -412,4 +412,4 @@ TEST_F(Gather, WaitsForNoFileThatNeverEnds) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -94,4 +94,4 @@ TEST(PacketFilter, BearsWhateverRulesContain) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -12,7 +12,7 @@
 #include "hal/thread/file_descriptor.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app::doctor {
+namespace orbwatch::app::cli::doctor {
 namespace {
 
 using namespace std::chrono_literals;
@@ -65,4 +65,4 @@ TEST(ProgramOutput, TooLateIsNoneAndKilledWithWhatItStarted) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app::doctor
+}  // namespace orbwatch::app::cli::doctor

@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/security/openssl_program.h"
 #include "tests/app/ports/dds/security/test_keystore.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ TEST_F(KeystoreTest, MakesItsFolderAndThoseAbove) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -11,7 +11,7 @@
 
 #include "tests/app/cli/equal_json.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using tests::expect_equal_json;
@@ -170,4 +170,4 @@ TEST(AppliancesTable, SaysWhoIsGone) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -8,7 +8,7 @@
 #include "hal/replay/replay_camera.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::cli {
 namespace {
 
 using std::chrono::milliseconds;
@@ -57,4 +57,4 @@ TEST_F(Recording, KeepsWhatEveryCameraDelivers) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::cli

@@ -160,8 +160,8 @@ TEST_F(RecordedCommands, WithoutAFolderTheFirstOfAClientIsNotCarriedOut) {
 
 Result<CommandAnswer> send(const Command& command, std::chrono::milliseconds timeout) {
   const std::atomic<bool> cancelled{false};
-  return send_command({.domain = DdsNetwork::kReaderDomain, .timeout = timeout}, command,
-                      cancelled);
+  return cli::send_command({.domain = DdsNetwork::kReaderDomain, .timeout = timeout}, command,
+                           cancelled);
 }
 
 TEST_F(RecordedCommands, TheCommandLineSendsAgainWhatWasNotCarriedOut) {

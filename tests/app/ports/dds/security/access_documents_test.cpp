@@ -116,9 +116,9 @@ bool allows(const std::vector<std::string>& patterns, const std::string& topic) 
 
 TEST(TopicAccessTest, IsWhatEachNeedsAndNoMore) {
   const std::string prefix = "cell_1/orbwatch";
-  const TopicAccess appliance = appliance_access(prefix);
-  const TopicAccess reader = reader_access(prefix);
-  const TopicAccess controller = controller_access(prefix);
+  const TopicAccess appliance = cli::appliance_access(prefix);
+  const TopicAccess reader = cli::reader_access(prefix);
+  const TopicAccess controller = cli::controller_access(prefix);
   for (const std::string& topic :
        {image_topic(prefix, "front"), image_topic(prefix, "front") + "/compressed",
         radiometric_topic(prefix, "front"), process_state_topic(prefix), event_topic(prefix),

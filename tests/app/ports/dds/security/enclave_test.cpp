@@ -16,6 +16,7 @@ namespace orbwatch::app {
 namespace {
 
 namespace fs = std::filesystem;
+using cli::enclave_folder;
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -164,7 +165,7 @@ TEST_F(EnclaveTest, PermissionsEndByThemselves) {
   Grant grant{"CN=subscriber",
               {this_second() - std::chrono::days(9), this_second() - std::chrono::seconds(1)},
               {{0, 9}},
-              reader_access("orbwatch")};
+              cli::reader_access("orbwatch")};
   sign(files_.permissions, permissions_document(grant));
   expect_refused(files_.permissions, "expired on 2");
   grant.validity.until += std::chrono::days(1);

@@ -30,6 +30,8 @@ namespace orbwatch::app {
 namespace {
 
 namespace fs = std::filesystem;
+using cli::enclave_folder;
+using cli::StateReader;
 using testing::HasSubstr;
 using tests::DdsNetwork;
 using tests::eventually;
@@ -70,7 +72,7 @@ class SecureNetwork : public testing::Test {
   Result<CommandAnswer> send(const std::optional<SecuritySettings>& security,
                              int domain = DdsNetwork::kReaderDomain) {
     const std::atomic<bool> cancelled{false};
-    return send_command(
+    return cli::send_command(
         {.domain = domain, .timeout = std::chrono::minutes(1), .security = security},
         {CommandCode::Start, {}}, cancelled);
   }
@@ -123,7 +125,7 @@ TEST_F(SecureNetwork, WhoHasKeysSeesFramesAndStateAndCommands) {
   const auto opened = states.open(kSecondPeer, subscriber());
   ASSERT_TRUE(opened) << opened.error().message;
   sink_.accept(tests::make_status());
-  const auto state = states.next(std::chrono::minutes(1), [](const ReceivedState&) {});
+  const auto state = states.next(std::chrono::minutes(1), [](const cli::ReceivedState&) {});
   ASSERT_TRUE(state) << state.error().message;
   EXPECT_TRUE(*state);
 
@@ -144,7 +146,7 @@ const dds_topic_descriptor_t& type_of(const std::string& topic) {
   if (topic == kThumbnailTopic) return orbwatch_msgs_msg_dds__Thumbnail__desc;
   if (topic == kDiagnosticsTopic) return diagnostic_msgs_msg_dds__DiagnosticArray__desc;
   if (topic.ends_with("/camera_info")) return sensor_msgs_msg_dds__CameraInfo__desc;
-  if (is_compressed_topic(topic)) return sensor_msgs_msg_dds__CompressedImage__desc;
+  if (cli::is_compressed_topic(topic)) return sensor_msgs_msg_dds__CompressedImage__desc;
   return sensor_msgs_msg_dds__Image__desc;
 }
 
@@ -220,7 +222,7 @@ TEST_F(SecureNetwork, WithoutKeysNothingIsCommanded) {
 TEST_F(SecureNetwork, AReaderMayNotCommand) {
   auto request = keystore_request(keystore_);
   request.subscribers = {"visitor"};
-  request.subscriber = reader_access("orbwatch");
+  request.subscriber = cli::reader_access("orbwatch");
   make_keystore(request);
   const auto refused = send(keys_of(keystore_, "visitor"), kSecondPeer);
   ASSERT_FALSE(refused);
@@ -235,12 +237,12 @@ TEST_F(SecureNetwork, AReaderMayNotCommand) {
 TEST_F(SecureNetwork, PermissionsThatSomebodyGaveHimselfAreVoid) {
   auto request = keystore_request(keystore_);
   request.subscribers = {"visitor"};
-  request.subscriber = reader_access("orbwatch");
+  request.subscriber = cli::reader_access("orbwatch");
   make_keystore(request);
   // The visitor's certificate is valid; authority and permissions come from the visitor's own
   // keystore, in which a visitor may command. The visitor's own computer accepts them.
   request.folder = folder_ / "forged";
-  request.subscriber = controller_access("orbwatch");
+  request.subscriber = cli::controller_access("orbwatch");
   make_keystore(request);
   const EnclaveFiles his(enclave_folder(keystore_, "visitor"));
   const EnclaveFiles forged(enclave_folder(folder_ / "forged", "visitor"));
@@ -293,7 +295,7 @@ TEST_F(SecureNetwork, WithKeysOfAnEarlierVersionTheSinkDoesAllButTheFleet) {
   StateReader states("orbwatch");
   ASSERT_TRUE(states.open(kThirdPeer, keys_of(folder_ / "earlier", "subscriber")));
   sink.accept(tests::make_status());
-  const auto state = states.next(std::chrono::minutes(1), [](const ReceivedState&) {});
+  const auto state = states.next(std::chrono::minutes(1), [](const cli::ReceivedState&) {});
   ASSERT_TRUE(state) << state.error().message;
   EXPECT_TRUE(*state);
   EXPECT_EQ(sink.statistics().joins, 1U);

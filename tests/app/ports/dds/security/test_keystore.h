@@ -16,18 +16,18 @@ inline std::chrono::sys_seconds this_second() {
 }
 
 /// Request for keys like those of `orbwatch dds-keys`, for the domains of DdsNetwork and some more.
-inline KeystoreRequest keystore_request(const std::filesystem::path& folder) {
+inline cli::KeystoreRequest keystore_request(const std::filesystem::path& folder) {
   return {.folder = folder,
           .domains = {1, 9},
-          .appliance = appliance_access("orbwatch"),
-          .subscriber = controller_access("orbwatch"),
-          .bulk_topics = bulk_topics("orbwatch")};
+          .appliance = cli::appliance_access("orbwatch"),
+          .subscriber = cli::controller_access("orbwatch"),
+          .bulk_topics = cli::bulk_topics("orbwatch")};
 }
 
 /// Makes the keys; returns the folder.
-inline std::filesystem::path make_keystore(const KeystoreRequest& request,
+inline std::filesystem::path make_keystore(const cli::KeystoreRequest& request,
                                            std::chrono::sys_seconds now = this_second()) {
-  const auto made = make_keys(request, now);
+  const auto made = cli::make_keys(request, now);
   EXPECT_TRUE(made) << made.error().message;
   return request.folder;
 }
