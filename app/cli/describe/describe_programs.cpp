@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/describe/describe_programs.h"
 
-#include "app/cli/options/declaration.h"
+#include <optional>
+
+#include "app/cli/options/options.h"
 #include "app/exit_status.h"
 #include "app/model/command.h"
 
@@ -40,6 +42,14 @@ std::string option_entry(const Option& option) {
   entry += escaped("--" + option.name) + "\\fR";
   if (!option.argument.empty()) entry += " \\fI" + escaped(option.argument) + "\\fR";
   return entry + "\n" + escaped(trimmed(option.text)) + "\n";
+}
+
+/// Declaration that a command passes to run_command(); nullopt: it takes no options.
+std::optional<CommandLine> declaration_of(const Subcommand& command) {
+  std::optional<CommandLine> declared;
+  // A command without options prints or refuses; its result is dropped.
+  static_cast<void>(command.run({{std::string(command.name)}, &declared}));
+  return declared;
 }
 
 std::string section(const std::string& before, const Subcommand& command) {

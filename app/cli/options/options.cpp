@@ -8,8 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/cli/options/declaration.h"
-
 namespace orbwatch::app::cli {
 namespace {
 
@@ -83,13 +81,6 @@ CliResult<std::string> run_command(
     return usage_error("unexpected argument " + words->front());
   }
   return run(*words);
-}
-
-std::optional<CommandLine> declaration_of(const Subcommand& command) {
-  std::optional<CommandLine> declared;
-  // A command without options prints or refuses; its result is dropped.
-  static_cast<void>(command.run({{std::string(command.name)}, &declared}));
-  return declared;
 }
 
 Result<double> parse_number(std::string_view name, std::string_view text) {
