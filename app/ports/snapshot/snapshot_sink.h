@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "app/model/command.h"
 #include "app/model/sink.h"
 #include "app/ports/snapshot/snapshot_settings.h"
+#include "hal/thread/bounded_queue.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
@@ -50,10 +50,7 @@ class SnapshotSink final : public Sink {
   std::uint64_t written() const { return written_; }
 
  private:
-  void run();
-  ViewPtr next();
   void write_all();
-  void log_dropped();
   Result<> write(const View& view, const std::string& name);
   Result<> remove_oldest(const std::string& newest);
 
@@ -65,9 +62,7 @@ class SnapshotSink final : public Sink {
   std::array<std::atomic<bool>, kMaxViews> wanted_{};
   /// Indexed by view: the next picture serves a request; used by accept()'s thread only.
   std::bitset<kMaxViews> asked_;
-  std::mutex mutex_;
-  std::array<ViewPtr, kMaxViews> accepted_;  ///< indexed by view: to be written; guarded by mutex_
-  std::bitset<kMaxViews> dropped_;           ///< indexed by view: to be logged; guarded by mutex_
+  hal::BoundedQueue<ViewPtr, kMaxViews> accepted_;  ///< to be written, at most one of each view
   std::atomic<std::uint64_t> written_{0};
   hal::Thread thread_;
 };

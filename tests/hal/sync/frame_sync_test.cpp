@@ -56,10 +56,11 @@ TEST(FrameSync, AFaultEndsTheWaitForACamera) {
 
 TEST(FrameSync, ClosingEndsAWait) {
   FrameSync sync(1, {});
+  const TimePoint deadline = soon();
   std::thread closer([&] { sync.close(); });
-  EXPECT_FALSE(sync.next(soon()));
+  EXPECT_FALSE(sync.next(deadline));
   closer.join();
-  EXPECT_LT(Clock::now(), kProgramStart + kGuard);
+  EXPECT_LT(Clock::now(), deadline);
 }
 
 TEST(FrameSync, ATriggeredCamerasQueueFillsWhileAllOtherPlacesAreFull) {

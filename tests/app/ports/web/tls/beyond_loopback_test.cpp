@@ -35,7 +35,7 @@ class BeyondLoopback : public AccessServed {
   }
   /// Returns whether the port on 127.0.0.1 accepts connections.
   static bool connects(int port) {
-    const auto address = parse_address("127.0.0.1", port);
+    const auto address = hal::parse_address("127.0.0.1", port);
     const hal::FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     return ::connect(socket.get(), address->get(), address->length) == 0;
   }
@@ -152,7 +152,7 @@ TEST_F(BeyondLoopback, TheCodeIsNotGuessed) {
     EXPECT_EQ(sink->statistics().logins_failed, static_cast<std::uint64_t>(answers[403]));
     EXPECT_FALSE(std::filesystem::exists(users_file(state_folder)));
     for (const Route& route : sink->routes()) {
-      if (route.method != "GET" || route.view != ViewArgument::None) continue;
+      if (route.method != "GET" || route.query) continue;
       EXPECT_EQ(get(port(), route.path).body.find(code), std::string::npos) << route.path;
     }
   });
