@@ -45,6 +45,8 @@ class SchemaWriter {
   void optional(std::string_view name, T& member, const Facts&... facts) {
     Json& schema = add(name, member, facts...);
     if constexpr (sent == Sent::ByClient) {
+      // Left out rather than null.
+      if constexpr (kIsOptional<T>) schema.erase("nullable");
       RecordWriter usual;
       usual.optional(name, member, facts...);
       Json json = usual.take();

@@ -73,13 +73,16 @@ Json status_schema() {
   Json& properties = all["properties"];
   const auto add = [&](const Component& component, const auto& part) {
     const bool is_named = !component.name.empty();
+    const std::string kind(component.kind);
     Json schema = part_schema<std::decay_t<decltype(part)>>(is_named);
     if (is_named) {
       // A list without entries is not sent.
-      properties[std::string(component.kind) + "s"] = list_schema(std::move(schema));
+      properties[kind + "s"] = list_schema(std::move(schema));
+      properties[kind + "s"]["description"] = "Figures of each " + kind;
     } else {
-      all["required"].push_back(component.kind);
-      properties[std::string(component.kind)] = std::move(schema);
+      all["required"].push_back(kind);
+      properties[kind] = std::move(schema);
+      properties[kind]["description"] = "Figures of the " + kind;
     }
   };
   for_each_component(StatusReport{one_of_each, no_names, hal::TimePoint{}, {}}, add);

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/recent_log.h"
 #include "tests/app/ports/web/served.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,6 +28,8 @@ class Commands : public Served {
     WebContext context = make_context();
     context.commands.record = record;
     context.commands.handler = [this](const Command& command) { return handle(command); };
+    context.program.log = std::make_shared<RecentLog>();
+    context.tables = [] { return std::vector<InterfaceTable>(); };
     sink = std::make_unique<WebSink>(settings, context);
     ASSERT_TRUE(sink->start());
   }

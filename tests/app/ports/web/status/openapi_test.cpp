@@ -15,7 +15,8 @@ Json described() { return Json::parse(openapi_json(routes_of({}))); }
 
 /// Fails for a member of an object without a description, at any depth.
 void expect_described(const Json& schema, const std::string& place) {
-  for (const auto& [name, member] : schema.value("properties", Json::object()).items()) {
+  const Json members = schema.value("properties", Json::object());
+  for (const auto& [name, member] : members.items()) {
     EXPECT_NE(member.value("description", ""), "") << place << "." << name;
     expect_described(member, place + "." + name);
   }
@@ -44,7 +45,8 @@ TEST(OpenApi, DescribesEachJsonAnswerAndEachBody) {
 TEST(OpenApi, NamesEachOperationDifferently) {
   std::set<std::string> names;
   std::size_t operations = 0;
-  for (const Json& methods : described()["paths"]) {
+  const Json all = described();
+  for (const Json& methods : all["paths"]) {
     for (const Json& operation : methods) {
       names.insert(operation["operationId"]);
       ++operations;
