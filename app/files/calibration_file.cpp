@@ -91,14 +91,12 @@ std::string text_of(const CalibrationEntry& entry) {
     text += "[entry.ball]\n" + toml_line("centre", toml_vector(*entry.alignment.ball_centre));
   }
   if (const auto& lens = camera.intrinsics) {
-    text += "[entry.intrinsics]\n" + toml_line("fx", toml_number(lens->fx)) +
-            toml_line("fy", toml_number(lens->fy)) + toml_line("cx", toml_number(lens->cx)) +
-            toml_line("cy", toml_number(lens->cy));
+    text += "[entry.intrinsics]\n" + toml_lines(toml_values(*lens));
   }
   if (camera.pose) {
-    text += "[entry.pose]\n" + toml_pose(*camera.pose);
+    text += "[entry.pose]\n" + toml_lines(toml_values(*camera.pose));
   } else if (const auto& limb = camera.outline) {
-    text += "[entry.outline]\n" + toml_outline(*limb) +
+    text += "[entry.outline]\n" + toml_lines(toml_values(*limb)) +
             (camera.registration ? toml_line("rotation_matrix", toml_matrix(*camera.registration))
                                  : toml_line("registered", "false"));
   }

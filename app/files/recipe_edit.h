@@ -11,8 +11,7 @@ namespace orbwatch::app {
 /// The text of a recipe's file with changes; comments, order and every unchanged value are kept
 /// byte for byte. `name` is the file's, for messages. Errors: a recipe that is refused before or
 /// after; no such alarm or region, or one that differs from the expected one; corners of another
-/// kind; a place in the text that can only be changed by hand, because comments would be lost or
-/// tables have no header.
+/// kind; corners with a comment between them, which would be lost; those of TomlEdit::finish().
 Result<std::string> changed_recipe(const std::string& text, const std::string& name,
                                    const RecipeChange& change);
 

@@ -10,8 +10,8 @@
 namespace orbwatch::app {
 
 /// The text of a rig file with the results of an alignment; comments, order and everything else are
-/// kept. `name` and `folder` as for parse_rig(). Error: a rig that is refused before or after, no
-/// such camera, a camera that states a changed table inline.
+/// kept. `name` and `folder` as for parse_rig(). Errors: a rig that is refused before or after; no
+/// such camera; those of TomlEdit::finish().
 Result<std::string> aligned_rig(const std::string& text, const std::string& name,
                                 const std::filesystem::path& folder, const RigAlignment& alignment);
 

@@ -11,10 +11,14 @@ std::string toml_number(double value) {
   return text;
 }
 
-std::string toml_list(std::initializer_list<double> values) {
+std::string toml_list(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "[" : ", ") + toml_number(value);
   return text + "]";
+}
+
+std::string toml_list(std::initializer_list<double> values) {
+  return toml_list(std::span(values.begin(), values.size()));
 }
 
 std::string toml_vector(const optics::Vec3& v) { return toml_list({v.x, v.y, v.z}); }
@@ -44,19 +48,31 @@ std::string toml_string(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string toml_line(const char* key, const std::string& value) {
-  return std::string(key) + " = " + value + "\n";
+std::string toml_line(const std::string& key, const std::string& value) {
+  return key + " = " + value + "\n";
 }
 
-std::string toml_outline(const optics::Outline& outline) {
-  return toml_line("centre", toml_list({outline.centre.u, outline.centre.v})) +
-         toml_line("radii", toml_list({outline.rx, outline.ry})) +
-         toml_line("angle", toml_number(outline.angle));
+std::vector<TomlValue> toml_values(const optics::Outline& outline) {
+  return {{"centre", toml_list({outline.centre.u, outline.centre.v})},
+          {"radii", toml_list({outline.rx, outline.ry})},
+          {"angle", toml_number(outline.angle)}};
 }
 
-std::string toml_pose(const optics::Pose& pose) {
-  return toml_line("position", toml_vector(pose.position)) +
-         toml_line("rotation", toml_matrix(pose.rotation));
+std::vector<TomlValue> toml_values(const optics::Pose& pose) {
+  return {{"position", toml_vector(pose.position)}, {"rotation", toml_matrix(pose.rotation)}};
+}
+
+std::vector<TomlValue> toml_values(const optics::Intrinsics& lens) {
+  return {{"fx", toml_number(lens.fx)},
+          {"fy", toml_number(lens.fy)},
+          {"cx", toml_number(lens.cx)},
+          {"cy", toml_number(lens.cy)}};
+}
+
+std::string toml_lines(const std::vector<TomlValue>& values) {
+  std::string lines;
+  for (const auto& [key, text] : values) lines += toml_line(key, text);
+  return lines;
 }
 
 }  // namespace orbwatch::app

@@ -48,9 +48,9 @@ std::string lens_text(const SetupCamera& camera) {
 }
 
 std::string place_text(const Setup& setup, const SetupCamera& camera) {
-  if (camera.pose) return "\n[camera.pose]\n" + toml_pose(*camera.pose);
+  if (camera.pose) return "\n[camera.pose]\n" + toml_lines(toml_values(*camera.pose));
   std::string text = "\n[camera.outline]               # drawn into " + camera.name + ".png\n" +
-                     toml_outline(camera.ball.outline);
+                     toml_lines(toml_values(camera.ball.outline));
   if (!camera.lens) {
     const double distance =
         camera.distance ? *camera.distance / setup.ball_radius : kAssumedDistance;

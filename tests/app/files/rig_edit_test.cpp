@@ -122,6 +122,31 @@ TEST(RigEdit, RefusesWhatItCannotChange) {
   EXPECT_FALSE(aligned_rig("[[camera]]\nname = 3\n", "rig.toml", ".", {}));
 }
 
+/// The camera's table has no header, so that its end in the text is unknown: `model` would be
+/// removed with it.
+TEST(RigEdit, RefusesToLoseAKeyAfterDottedOnes) {
+  const std::string dotted = R"([[camera]]
+name = "A"
+width = 800
+height = 600
+outline.centre = [402.5, 297.1]
+outline.radius = 264.8
+model = "paper"
+[camera.intrinsics]
+fx = 4000
+fy = 4000
+cx = 399.5
+cy = 299.5
+)";
+  const optics::Pose pose{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {0, -12, 0}};
+  const auto text =
+      aligned_rig(dotted, "rig.toml", ".", {std::nullopt, {{.camera = "A", .pose = pose}}});
+  ASSERT_FALSE(text) << *text;
+  EXPECT_EQ(text.error().message,
+            "rig.toml: the change would make camera[0].model wrong; write each table that changes "
+            "with a header of its own");
+}
+
 TEST(RigEdit, WritesTheFileItReadAndOnlyThen) {
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "rig.toml";
