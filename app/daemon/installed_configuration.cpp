@@ -7,9 +7,8 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <iomanip>
+#include <cstdio>
 #include <set>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -37,16 +36,14 @@ bool may_be_changed(const fs::path& file, const fs::path& site) {
          site.parent_path() / *name == file && fs::path(*name).has_filename() && *name != ".";
 }
 
-/// Eight hexadecimal digits of the CRC-32.
-std::string checksum_of(const std::string& text) {
-  TextFiles read;
-  read.add(text);
-  std::ostringstream digits;
-  digits << std::hex << std::setw(8) << std::setfill('0') << read.checksum();
-  return digits.str();
+/// Eight hexadecimal digits.
+std::string checksum_digits(const std::string& text) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%08x", checksum_of(text));
+  return digits;
 }
 
-/// Error: it is not what checksum_of() gives.
+/// Error: not a result of checksum_digits().
 Result<std::uint32_t> parse_checksum(const std::string& name, const std::string& digits) {
   std::uint32_t checksum = 0;
   const char* const end = digits.data() + digits.size();
@@ -58,7 +55,7 @@ Result<std::uint32_t> parse_checksum(const std::string& name, const std::string&
 /// The file's version with the checksum of this very text, which was read before.
 ConfigurationFiles::Version version_of_text(const fs::path& file, const std::string& text) {
   FileVersion now = version_of(file);
-  return {checksum_of(text), std::move(now.time), std::move(now.account)};
+  return {checksum_digits(text), std::move(now.time), std::move(now.account)};
 }
 
 /// Before it is tried out, not when it is confirmed: a file is replaced by one in the same folder.
@@ -142,7 +139,7 @@ Result<ConfigurationFiles::Edit> InstalledConfiguration::with_changed_recipe(
   if (!present) return tl::unexpected(present.error());
   const std::string name = name_of(file);
   return changed_recipe(*present, name, change).map([&](const std::string& text) {
-    return Edit{{{name, text}}, {{name, checksum_of(*present)}}};
+    return Edit{{{name, text}}, {{name, checksum_digits(*present)}}};
   });
 }
 

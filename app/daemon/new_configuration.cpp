@@ -39,10 +39,8 @@ Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int se
     const bool is_kept = texts.contains(file) || !is_private(file);
     if (!is_kept || !name_beside(site, file)) continue;
     trial.texts[file] = text;
-    TextFiles read;
-    read.add(text);
     const auto replaced = based_on.find(file);
-    trial.based_on[file] = replaced == based_on.end() ? read.checksum() : replaced->second;
+    trial.based_on[file] = replaced == based_on.end() ? checksum_of(text) : replaced->second;
   }
   return trial;
 }

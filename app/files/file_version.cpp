@@ -33,11 +33,7 @@ std::string to_the_second(const std::string& utc) {
 
 FileVersion version_of(const std::filesystem::path& file) {
   FileVersion version;
-  if (const auto text = hal::read_regular_file(file)) {
-    TextFiles sum;
-    sum.add(*text);
-    version.checksum = sum.checksum();
-  }
+  if (const auto text = hal::read_regular_file(file)) version.checksum = checksum_of(*text);
   struct stat about {};
   if (::stat(file.c_str(), &about) != 0) return version;
   using std::chrono::system_clock;

@@ -6,6 +6,12 @@
 #include "hal/regular_file.h"
 
 namespace orbwatch::app {
+
+std::uint32_t checksum_of(const std::string& text, std::uint32_t before) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
 Result<std::string> TextFiles::read(const std::filesystem::path& file, const std::string& kind) {
   const auto known = instead_.find(file);
   auto text = known == instead_.end() ? hal::read_regular_file(file) : known->second;
@@ -13,11 +19,6 @@ Result<std::string> TextFiles::read(const std::filesystem::path& file, const std
   add(*text);
   texts_[file] = *text;
   return text;
-}
-
-void TextFiles::add(const std::string& text) {
-  checksum_ = static_cast<std::uint32_t>(
-      crc32_z(checksum_, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
 }  // namespace orbwatch::app

@@ -19,6 +19,10 @@ using FileTexts = std::map<std::filesystem::path, std::string>;
 /// at most 1 MiB.
 inline constexpr std::size_t kMostTexts = std::size_t{64} << 20;
 
+/// CRC-32 of a text, as it is kept in the state folder and shown to clients; with `before`, of both
+/// texts, one after the other. Reentrant.
+std::uint32_t checksum_of(const std::string& text, std::uint32_t before = 0);
+
 /// Reads hand-written files, at most 1 MiB each, and keeps a CRC-32 of all texts read, in order.
 class TextFiles {
  public:
@@ -30,7 +34,7 @@ class TextFiles {
   Result<std::string> read(const std::filesystem::path& file, const std::string& kind);
 
   /// Adds a text in place of a file.
-  void add(const std::string& text);
+  void add(const std::string& text) { checksum_ = checksum_of(text, checksum_); }
 
   std::uint32_t checksum() const { return checksum_; }
 
