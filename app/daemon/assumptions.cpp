@@ -5,6 +5,9 @@
 #include <iomanip>
 #include <sstream>
 
+#include "app/model/register_advice.h"
+#include "app/model/status.h"
+
 namespace orbwatch::app {
 namespace {
 
@@ -29,9 +32,9 @@ std::vector<std::string> assumptions(const Resolved& site, const SitePlan& plan)
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     if (site.rig_camera(i).is_registered) continue;
-    lines.push_back(site.site.rig.path.string() + ": camera " + site.names.cameras[i] +
-                    ": is not registered, and left out of merged and measured views; register it "
-                    "(`orbwatch register`, or the commands register_camera and accept_alignment)");
+    std::string line = site.site.rig.path.string() + ": camera " + site.names.cameras[i] + ": is ";
+    line += operator_text(AlignmentLevel::NotRegistered);
+    lines.push_back(line.append("; ").append(kRegisterAdvice));
   }
   for (std::size_t i = 0; i < plan.recipes.size(); ++i) {
     for (std::size_t k = 0; k < plan.recipes[i].regions.size(); ++k) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/daemon/region_plan.h"
+#include "app/model/register_advice.h"
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/views/source_colours.h"
 
@@ -78,8 +79,8 @@ class Planner {
     const SourceSettings& measured = view.sources[view.measured.index];
     if (is_registered(measured)) return {};
     return fail("view " + view.name + ": camera " + measured.camera.name +
-                ", which measures it, is not registered; register it (`orbwatch register`, or the "
-                "commands register_camera and accept_alignment), or name another camera");
+                ", which measures it, is not registered; " + std::string(kRegisterAdvice) +
+                ", or name another camera");
   }
 
   /// Error: the rig makes the view impossible.
