@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/alignment/picture_size.h"
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/options.h"
@@ -104,6 +105,14 @@ std::string depth_and_channels(const Picture& picture) {
          (info(picture.format).channels() == 1 ? "grey" : "colour");
 }
 
+/// Error: the picture does not have the rig's size, or does not contain the ball.
+Result<> check_picture(const ChosenCamera& camera, const hal::DecodedPicture& decoded) {
+  if (camera.rig_camera) return check_picture_size(decoded, *camera.rig_camera);
+  const Picture& picture = decoded.picture;
+  return optics::check_outline(*camera.outline, picture.width, picture.height)
+      .map_error([&](const Error& error) { return Error{error.message + exif_note(decoded)}; });
+}
+
 Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenCamera>& cameras,
                                                        Progress& progress) {
   std::vector<hal::DecodedPicture> pictures;
@@ -112,8 +121,8 @@ Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenC
     auto read = hal::read_picture(camera.picture);
     if (!read) return tl::unexpected(read.error());
     const Picture& picture = read->picture;
-    if (auto fits = check_picture_size(camera, {picture.width, picture.height}); !fits) {
-      return fail(camera.picture.string() + ": " + fits.error().message + exif_note(*read));
+    if (auto fits = check_picture(camera, *read); !fits) {
+      return fail(camera.picture.string() + ": " + fits.error().message);
     }
     pictures.push_back(std::move(*read));
     const Picture& first = pictures.front().picture;

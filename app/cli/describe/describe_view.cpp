@@ -186,6 +186,16 @@ Result<> write_map(const std::filesystem::path& path, const std::vector<float>& 
                                                  row_bytes(PixelFormat::Y16, view.width())));
 }
 
+/// Size of a camera's pictures, stated by the rig or by an option.
+CliResult<Size> picture_size(const ChosenCamera& camera, const DescribeViewOptions& o) {
+  if (const auto& known = camera.rig_camera) return Size{known->width, known->height};
+  if (!o.picture_size) return usage_error("--size-of-picture is missing");
+  const Size size = *o.picture_size;
+  const auto checked = optics::check_outline(*camera.outline, size.width, size.height);
+  if (!checked) return tl::unexpected(checked.error());
+  return size;
+}
+
 CliResult<std::string> describe(const DescribeViewOptions& o) {
   const auto cameras = choose_cameras(o.cameras);
   if (!cameras) return tl::unexpected(cameras.error());
@@ -200,9 +210,8 @@ CliResult<std::string> describe(const DescribeViewOptions& o) {
   for (const ChosenCamera& camera : *cameras) {
     if (!camera.picture.empty())
       return usage_error("--camera takes no picture here; give its name alone");
-    const auto size = camera.size ? camera.size : o.picture_size;
-    if (!size) return usage_error("--size-of-picture is missing");
-    if (auto fits = check_picture_size(camera, *size); !fits) return tl::unexpected(fits.error());
+    const auto size = picture_size(camera, o);
+    if (!size) return tl::unexpected(size.error());
     const auto map = optics::resolution_map(*view, camera.ball, size->width, size->height);
     figures.push_back(figures_of(camera, *view, *size, map));
     std::transform(best.begin(), best.end(), map.begin(), best.begin(),

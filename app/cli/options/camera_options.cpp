@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/files/rig_file.h"
+#include "app/model/register_advice.h"
 #include "proc/remap/remap.h"
 
 namespace orbwatch::app::cli {
@@ -80,13 +81,14 @@ CliResult<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
     if (!camera) return fail(o.rig.string() + ": " + camera.error().message);
     if (o.cameras.size() > 1 && !camera->is_registered) {
       return fail(o.rig.string() + ": camera " + camera->name +
-                  " is not registered, and cannot be merged with others; see orbwatch register");
+                  " is not registered, and cannot be merged with others; " +
+                  std::string(kRegisterAdvice));
     }
     if (o.model) replace_model(*o.model, *camera);
     auto ball = optics::ball_projection(*rig, *camera);
     if (!ball) return fail(o.rig.string() + ": " + ball.error().message);
-    chosen.push_back({named.name, named.picture, std::move(*ball),
-                      Size{camera->width, camera->height}, std::nullopt});
+    chosen.push_back(
+        {named.name, named.picture, std::move(*ball), std::move(*camera), std::nullopt});
   }
   return chosen;
 }
@@ -137,20 +139,6 @@ std::vector<Option> camera_options(CameraOptions& o) {
 
 CliResult<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options) {
   return options.rig.empty() ? choose_described(options) : choose_from_rig(options);
-}
-
-Result<> check_picture_size(const ChosenCamera& camera, const Size& picture) {
-  const auto text = [](const Size& s) {
-    return std::to_string(s.width) + "x" + std::to_string(s.height);
-  };
-  if (camera.outline) {
-    return optics::check_outline(*camera.outline, picture.width, picture.height);
-  }
-  if (!camera.size ||
-      (camera.size->width == picture.width && camera.size->height == picture.height))
-    return {};
-  return fail("is " + text(picture) + ", but the rig's camera " + camera.name + " takes " +
-              text(*camera.size));
 }
 
 Result<optics::RigCamera> find_camera(const optics::Rig& rig, const std::string& name) {

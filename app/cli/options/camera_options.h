@@ -32,17 +32,14 @@ struct ChosenCamera {
   std::string name;               ///< name in the rig; empty without one
   std::filesystem::path picture;  ///< the image in NAME=IMAGE
   optics::BallProjection ball;
-  std::optional<Size> size;                ///< size of its pictures, if the rig states it
-  std::optional<optics::Outline> outline;  ///< set by --ball
+  std::optional<optics::RigCamera> rig_camera;  ///< the camera in the rig, or else:
+  std::optional<optics::Outline> outline;       ///< set by --ball
 };
 
 /// Returns the cameras in the order given, 1 to remap::kMaxSources. Errors: no camera, too many, a
 /// duplicate, an unknown one, --rig together with an option that it replaces, those of load_rig and
 /// optics::ball_projection.
 CliResult<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options);
-
-/// Refuses a picture whose size is not the rig's or that does not contain the ball.
-Result<> check_picture_size(const ChosenCamera& camera, const Size& picture);
 
 /// Finds the rig's camera of that name. The error lists the existing ones.
 Result<optics::RigCamera> find_camera(const optics::Rig& rig, const std::string& name);

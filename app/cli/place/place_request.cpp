@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/alignment/found_outline.h"
+#include "app/alignment/picture_size.h"
 #include "app/alignment/placement.h"
 #include "app/cli/options/camera_options.h"
 #include "hal/replay/picture_decoder.h"
@@ -22,12 +23,10 @@ Result<hal::DecodedPicture> picture_of(const std::filesystem::path& file,
                                        const optics::RigCamera& camera) {
   auto decoded = hal::read_picture(file);
   if (!decoded) return tl::unexpected(decoded.error());
-  const Picture& picture = decoded->picture;
-  if (picture.width == camera.width && picture.height == camera.height) return decoded;
-  return fail(file.string() + " has " + std::to_string(picture.width) + "x" +
-              std::to_string(picture.height) + " pixels, camera " + camera.name + " of the rig " +
-              std::to_string(camera.width) + "x" + std::to_string(camera.height) +
-              exif_note(*decoded));
+  if (const auto fits = check_picture_size(*decoded, camera); !fits) {
+    return fail(file.string() + ": " + fits.error().message);
+  }
+  return decoded;
 }
 
 /// The rig's, or else what is found in the picture.

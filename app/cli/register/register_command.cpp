@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/alignment/found_outline.h"
+#include "app/alignment/picture_size.h"
 #include "app/alignment/registration.h"
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
@@ -75,19 +76,10 @@ std::vector<Option> declare(RegisterOptions& o) {
   };
 }
 
-Result<> check_size(const optics::RigCamera& camera, const NamedPictures& named) {
-  const Picture& picture = named.pictures.front().picture;
-  if (picture.width == camera.width && picture.height == camera.height) return {};
-  return fail("camera " + camera.name + " has pictures of " + std::to_string(camera.width) + "x" +
-              std::to_string(camera.height) + " in the rig, these have " +
-              std::to_string(picture.width) + "x" + std::to_string(picture.height) +
-              exif_note(named.pictures.front()));
-}
-
 /// A camera of the rig whose pictures are of the rig's size.
 Result<optics::RigCamera> camera_of(const optics::Rig& rig, const NamedPictures& named) {
   return find_camera(rig, named.name).and_then([&](const optics::RigCamera& camera) {
-    return check_size(camera, named).map([&] { return camera; });
+    return check_picture_size(named.pictures.front(), camera).map([&] { return camera; });
   });
 }
 

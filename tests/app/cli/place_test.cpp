@@ -250,9 +250,10 @@ TEST_F(Place, RefusesMistakesWithTheReason) {
            Mistake{"a bent tag", with({"--tag", "3=0,0,0,9,0,0,9,9,0,0,5,0"}), {"no square"}},
            Mistake{"a tag twice", with({"--tags", "DIR/twice.txt"}), {"tag 3", "twice"}},
            Mistake{"a list that is none", with({"--tags", "DIR/none.txt"}), {"none.txt:2"}},
-           Mistake{"another size",
-                   with({"--camera", "A", "--image", "DIR/small.png"}),
-                   {"small.png has 300x200", "2400x2000"}},
+           Mistake{
+               "another size",
+               with({"--camera", "A", "--image", "DIR/small.png"}),
+               {"small.png: the picture is 300x200 px, but camera A of the rig has 2400x2000 px"}},
        }) {
     SCOPED_TRACE(mistake.name);
     expect_refused("place", mistake);

@@ -250,9 +250,10 @@ INSTANTIATE_TEST_SUITE_P(
                 with_rig({"DIR/side.png", "--camera", "front=DIR/front.png"}),
                 {"side.png", "no camera"}},
         Mistake{"NoSuchPicture", with_rig({"--camera", "front=DIR/none.png"}), {"none.png"}},
-        Mistake{"OtherSizeThanTheRigs",
-                with_rig({"--camera", "front=DIR/small.png"}),
-                {"small.png", "100x80", "300x300", "front"}},
+        Mistake{
+            "OtherSizeThanTheRigs",
+            with_rig({"--camera", "front=DIR/small.png"}),
+            {"small.png: the picture is 100x80 px, but camera front of the rig has 300x300 px"}},
         Mistake{"DifferentDepths",
                 with_rig({"--camera", "front=DIR/front.png", "--camera", "back=DIR/deep.png"}),
                 {"front.png", "deep.png", "16 bit", "8 bit"}},

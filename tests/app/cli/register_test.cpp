@@ -143,7 +143,9 @@ TEST_F(Register, RefusesMistakesWithTheReason) {
            Mistake{"an unknown camera", {"--rig", rig, a, "Z=DIR/b.png"}, {"Z"}},
            Mistake{"no such file", {"--rig", rig, a, "B=DIR/none.png"}, {"none.png"}},
            Mistake{"an empty folder", {"--rig", rig, a, "B=DIR/empty"}, {"no pictures in it"}},
-           Mistake{"another size", {"--rig", rig, a, "B=DIR/small.png"}, {"100x100", "800x600"}},
+           Mistake{"another size",
+                   {"--rig", rig, a, "B=DIR/small.png"},
+                   {"the picture is 100x100 px, but camera B of the rig has 800x600 px"}},
            Mistake{"an unknown method", {"--rig", rig, a, b, "--method", "luck"}, {"luck", "auto"}},
        }) {
     SCOPED_TRACE(mistake.name);
