@@ -22,6 +22,13 @@ bool is_below(const std::string& path, const std::string& folder) {
   return path.starts_with(folder + "/");
 }
 
+/// A rule's `allowed` names the header, its folder, or both ends of its path around a `*`.
+bool permits(const std::string& allowed, const std::string& header) {
+  const std::size_t star = allowed.find('*');
+  if (star == std::string::npos) return header == allowed || is_below(header, allowed);
+  return header.starts_with(allowed.substr(0, star)) && header.ends_with(allowed.substr(star + 1));
+}
+
 const Rule* rule_for(const std::string& file) {
   const Rule* best = nullptr;
   for (const Rule& rule : kRules) {
@@ -78,6 +85,15 @@ bool is_standard(const std::string& header) {
          std::ranges::find(kLibraries, header) == kLibraries.end();
 }
 
+TEST(IncludeDirections, ArePermittedByHeaderFolderOrPattern) {
+  EXPECT_TRUE(permits("app/log.h", "app/log.h"));
+  EXPECT_TRUE(permits("app/ports", "app/ports/web/web_sink.h"));
+  EXPECT_FALSE(permits("app/ports", "app/ports_of_call.h"));
+  EXPECT_TRUE(permits("app/ports/*_settings.h", "app/ports/web/web_settings.h"));
+  EXPECT_FALSE(permits("app/ports/*_settings.h", "app/ports/web/web_sink.h"));
+  EXPECT_FALSE(permits("app/ports/*_settings.h", "app/pipeline/pipeline_settings.h"));
+}
+
 TEST(IncludeDirections, FollowTheArchitecture) {
   const auto includes = all_includes();
   EXPECT_GT(includes.size(), 300U);
@@ -86,8 +102,7 @@ TEST(IncludeDirections, FollowTheArchitecture) {
     ASSERT_TRUE(rule) << include.file << " is in no folder of the architecture";
     const auto& allowed = include.quoted ? rule->allowed : rule->foreign;
     const bool good = std::any_of(allowed.begin(), allowed.end(), [&](const std::string& prefix) {
-      return include.quoted ? include.header == prefix || is_below(include.header, prefix)
-                            : include.header.starts_with(prefix);
+      return include.quoted ? permits(prefix, include.header) : include.header.starts_with(prefix);
     });
     // idlc writes headers without a folder.
     const bool generated =
@@ -120,7 +135,8 @@ TEST(IncludeDirections, KnowEveryRoom) {
   }
 }
 
-/// The other rooms of app that a rule allows, as app/README.md lists them: "model, log, pictures".
+/// The other rooms of app that a rule allows, as app/README.md lists them: "model, log, ports
+/// settings".
 std::string may_use(const Rule& rule) {
   std::string text;
   std::set<std::string> listed;
@@ -129,6 +145,7 @@ std::string may_use(const Rule& rule) {
     if (!is_below(allowed, "app") || allowed == rule.folder) continue;
     std::string name = allowed.substr(4);
     if (name.ends_with(".h")) name.resize(name.size() - 2);
+    if (const auto star = name.find("/*_"); star != std::string::npos) name.replace(star, 3, " ");
     if (name == "log_writer" || name == "recent_log") name = "log";
     if (!listed.insert(name).second) continue;
     text += (text.empty() ? "" : ", ") + name;
