@@ -6,9 +6,9 @@
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/cli/text_table.h"
-#include "app/files/calibration_file.h"
 #include "app/files/resolve.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/calibration_file.h"
+#include "app/files/runtime/site_file.h"
 #include "app/state/private_file.h"
 #include "app/state/state_folder.h"
 

@@ -10,7 +10,7 @@
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/files/resolve.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/site_file.h"
 #include "app/ports/web/access/first_code.h"
 #include "app/ports/web/access/secret.h"
 #include "app/ports/web/access/users.h"

@@ -12,7 +12,7 @@
 #include "app/cli/options/options.h"
 #include "app/cli/options/view_options.h"
 #include "app/cli/progress.h"
-#include "app/files/camera_calibration.h"
+#include "app/files/rig/camera_calibration.h"
 #include "app/pictures/picture_file.h"
 #include "app/pipeline/views/still_view.h"
 #include "app/pipeline/views/view_settings.h"

@@ -7,7 +7,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "app/files/finding.h"
+#include "app/files/toml/finding.h"
 
 namespace orbwatch::app::cli {
 namespace {

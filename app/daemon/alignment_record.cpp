@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/files/calibration_file.h"
+#include "app/files/runtime/calibration_file.h"
 #include "app/log.h"
 #include "app/model/utc_text.h"
 #include "app/state/private_file.h"

@@ -6,7 +6,7 @@
 
 #include "app/daemon/site_check.h"
 #include "app/daemon/view_memory.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/site_file.h"
 #include "app/log.h"
 #include "app/state/state_folder.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/files/resolve.h"
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 
 namespace orbwatch::app {
 

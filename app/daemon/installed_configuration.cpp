@@ -14,8 +14,8 @@
 
 #include "app/daemon/new_configuration.h"
 #include "app/daemon/replaceable_file.h"
-#include "app/files/file_version.h"
-#include "app/files/recipe_edit.h"
+#include "app/files/recipe/recipe_edit.h"
+#include "app/files/text/file_version.h"
 
 namespace orbwatch::app {
 namespace {

@@ -20,7 +20,7 @@
 #include "app/daemon/supervision.h"
 #include "app/exit_status.h"
 #include "app/files/resolve.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/site_file.h"
 #include "app/log.h"
 #include "app/log_writer.h"
 #include "app/recent_log.h"

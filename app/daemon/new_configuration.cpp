@@ -4,7 +4,7 @@
 #include "app/daemon/replaceable_file.h"
 #include "app/daemon/site_check.h"
 #include "app/files/resolve.h"
-#include "app/files/text_difference.h"
+#include "app/files/text/text_difference.h"
 
 namespace orbwatch::app {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 
 namespace orbwatch::app {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/files/resolve.h"
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 #include "app/log.h"
 
 namespace orbwatch::app {

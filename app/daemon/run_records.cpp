@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/daemon/configuration_choice.h"
-#include "app/files/driven_lines.h"
+#include "app/files/runtime/driven_lines.h"
 #include "app/log.h"
 #include "app/state/state_folder.h"
 #include "hal/atomic_file.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/files/camera_settings.h"
-#include "app/files/finding.h"
+#include "app/files/toml/finding.h"
 #include "app/model/place_settings.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "app/pipeline/pipeline_settings.h"

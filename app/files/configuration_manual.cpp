@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/files/configuration.h"
-#include "app/files/manual_writer.h"
+#include "app/files/toml/manual_writer.h"
 
 namespace orbwatch::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/files/finding.h"
+#include "app/files/toml/finding.h"
 
 namespace orbwatch::app {
 

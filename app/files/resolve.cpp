@@ -7,12 +7,12 @@
 #include <sstream>
 #include <utility>
 
-#include "app/files/calibration_file.h"
 #include "app/files/plain_names.h"
-#include "app/files/recipe_file.h"
-#include "app/files/rig_file.h"
-#include "app/files/text_file.h"
-#include "app/files/toml_reader.h"
+#include "app/files/recipe/recipe_file.h"
+#include "app/files/rig/rig_file.h"
+#include "app/files/runtime/calibration_file.h"
+#include "app/files/text/text_file.h"
+#include "app/files/toml/toml_reader.h"
 #include "app/pipeline/views/picture_use.h"
 #include "app/state/state_folder.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/files/calibration_file.h"
 #include "app/files/configuration.h"
-#include "app/files/text_file.h"
+#include "app/files/runtime/calibration_file.h"
+#include "app/files/text/text_file.h"
 #include "app/model/status_report.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "proc/image/result.h"

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "app/daemon/cameras.h"
-#include "app/files/text_file.h"
-#include "app/files/toml_reader.h"
+#include "app/files/text/text_file.h"
+#include "app/files/toml/toml_reader.h"
 
 namespace orbwatch::tests {
 template <class Visitor>

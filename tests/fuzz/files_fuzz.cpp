@@ -3,11 +3,11 @@
 #include <cctype>
 #include <string>
 
-#include "app/files/camera_calibration.h"
 #include "app/files/configuration.h"
-#include "app/files/recipe_file.h"
-#include "app/files/rig_file.h"
-#include "app/files/toml_reader.h"
+#include "app/files/recipe/recipe_file.h"
+#include "app/files/rig/camera_calibration.h"
+#include "app/files/rig/rig_file.h"
+#include "app/files/toml/toml_reader.h"
 #include "tests/fuzz/byte_stream.h"
 #include "tests/fuzz/stop.h"
 

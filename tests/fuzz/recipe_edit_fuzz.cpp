@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/files/recipe_edit.h"
+#include "app/files/recipe/recipe_edit.h"
 #include "app/ports/web/api/record_schema.h"
 #include "app/ports/web/configuration/configuration_records.h"
 #include "app/ports/web/configuration/recipe_records.h"

@@ -7,7 +7,7 @@
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/daemon/site_check.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/site_file.h"
 
 namespace orbwatch::app::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "app/cli/progress.h"
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 
 namespace orbwatch::app::cli {
 namespace {

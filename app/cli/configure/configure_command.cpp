@@ -10,8 +10,8 @@
 #include "app/daemon/new_configuration.h"
 #include "app/daemon/replaceable_file.h"
 #include "app/files/resolve.h"
-#include "app/files/site_file.h"
-#include "app/files/trial.h"
+#include "app/files/runtime/site_file.h"
+#include "app/files/runtime/trial.h"
 #include "app/model/configuration_files.h"
 #include "app/state/state_folder.h"
 

@@ -9,8 +9,8 @@
 
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
-#include "app/files/camera_calibration.h"
-#include "app/files/rig_file.h"
+#include "app/files/rig/camera_calibration.h"
+#include "app/files/rig/rig_file.h"
 #include "app/model/json.h"
 #include "proc/optics/ball_model.h"
 #include "proc/optics/vec.h"

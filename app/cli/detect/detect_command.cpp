@@ -7,7 +7,7 @@
 #include "app/cli/detect/overlay.h"
 #include "app/cli/options/options.h"
 #include "app/cli/progress.h"
-#include "app/files/camera_calibration.h"
+#include "app/files/rig/camera_calibration.h"
 #include "app/pictures/picture_file.h"
 #include "hal/replay/picture_decoder.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/files/text_file.h"
-#include "app/files/toml_reader.h"
+#include "app/files/text/text_file.h"
+#include "app/files/toml/toml_reader.h"
 #include "app/health/system_file.h"
 
 namespace orbwatch::app::cli::doctor {

@@ -7,7 +7,7 @@
 #include "app/cli/doctor/doctor_text.h"
 #include "app/cli/doctor/gather.h"
 #include "app/cli/options/options.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/site_file.h"
 
 namespace orbwatch::app::cli {
 namespace {

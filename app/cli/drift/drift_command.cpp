@@ -4,7 +4,7 @@
 #include "app/cli/drift/drift_text.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/options.h"
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 
 namespace orbwatch::app::cli {
 namespace {

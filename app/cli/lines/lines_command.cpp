@@ -3,9 +3,9 @@
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
-#include "app/files/driven_lines.h"
 #include "app/files/resolve.h"
-#include "app/files/site_file.h"
+#include "app/files/runtime/driven_lines.h"
+#include "app/files/runtime/site_file.h"
 #include "app/ports/lines/safe_state.h"
 #include "app/state/state_folder.h"
 #include "hal/lines/gpio/gpio_lines.h"

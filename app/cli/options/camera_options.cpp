@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "app/model/register_advice.h"
 #include "proc/remap/remap.h"
 

@@ -4,8 +4,8 @@
 #include "app/cli/place/place_options.h"
 #include "app/cli/place/place_request.h"
 #include "app/cli/place/place_text.h"
-#include "app/files/rig_edit.h"
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_edit.h"
+#include "app/files/rig/rig_file.h"
 
 namespace orbwatch::app::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "app/files/text_file.h"
+#include "app/files/text/text_file.h"
 
 namespace orbwatch::app::cli {
 namespace {

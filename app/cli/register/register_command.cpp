@@ -11,8 +11,8 @@
 #include "app/cli/progress.h"
 #include "app/cli/register/named_pictures.h"
 #include "app/cli/register/register_text.h"
-#include "app/files/rig_edit.h"
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_edit.h"
+#include "app/files/rig/rig_file.h"
 
 namespace orbwatch::app::cli {
 namespace {

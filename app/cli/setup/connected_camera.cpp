@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "app/files/plain_names.h"
-#include "app/files/toml_text.h"
+#include "app/files/toml/toml_text.h"
 #include "hal/inventory.h"
 #include "hal/module/module_camera.h"
 #include "hal/v4l2/device/v4l2_list.h"

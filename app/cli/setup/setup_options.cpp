@@ -5,8 +5,8 @@
 #include <sstream>
 #include <utility>
 
-#include "app/files/camera_calibration.h"
 #include "app/files/plain_names.h"
+#include "app/files/rig/camera_calibration.h"
 #include "proc/optics/rotation.h"
 
 namespace orbwatch::app::cli {

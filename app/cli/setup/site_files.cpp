@@ -6,9 +6,9 @@
 #include "app/cli/detect/overlay.h"
 #include "app/cli/staged_folder.h"
 #include "app/daemon/site_check.h"
-#include "app/files/camera_calibration.h"
 #include "app/files/resolve.h"
-#include "app/files/toml_text.h"
+#include "app/files/rig/camera_calibration.h"
+#include "app/files/toml/toml_text.h"
 #include "hal/atomic_file.h"
 
 namespace orbwatch::app::cli {

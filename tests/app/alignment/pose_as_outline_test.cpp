@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/files/calibration_file.h"
+#include "app/files/runtime/calibration_file.h"
 #include "proc/align/register/registration.h"
 #include "tests/app/alignment/rig_with_pose.h"
 #include "tests/support/temporary_folder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "app/files/calibration_file.h"
+#include "app/files/runtime/calibration_file.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 #include "tests/app/files/machine_files.h"

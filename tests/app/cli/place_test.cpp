@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "proc/optics/view_projection.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"

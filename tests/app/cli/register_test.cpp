@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "proc/align/rotation_fit.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "proc/optics/resolution.h"
 #include "proc/optics/view_projection.h"
 #include "tests/support/reference_data.h"

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/support/reference_data.h"

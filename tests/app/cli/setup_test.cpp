@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/detect/painted_ball.h"

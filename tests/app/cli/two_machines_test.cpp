@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 #include "app/ports/web/access/users.h"
 #include "app/state/state_folder.h"
 #include "tests/app/cli/command_line.h"

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "app/files/calibration_file.h"
 #include "app/files/resolve.h"
-#include "app/files/trial.h"
+#include "app/files/runtime/calibration_file.h"
+#include "app/files/runtime/trial.h"
 #include "app/model/command.h"
 #include "app/model/status.h"
 #include "hal/replay/picture_folder.h"

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/files/calibration_file.h"
+#include "app/files/runtime/calibration_file.h"
 #include "tests/app/files/machine_files.h"
 #include "tests/support/service_user.h"
 

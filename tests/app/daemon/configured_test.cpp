@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 #include "app/state/state_folder.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/app/daemon/hung_thread.h"

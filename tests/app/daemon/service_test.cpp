@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/files/calibration_file.h"
+#include "app/files/runtime/calibration_file.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/app/daemon/hung_thread.h"
 #include "tests/support/journal_socket.h"

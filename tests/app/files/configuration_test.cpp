@@ -4,8 +4,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/files/recipe_file.h"
-#include "app/files/rig_file.h"
+#include "app/files/recipe/recipe_file.h"
+#include "app/files/rig/rig_file.h"
 #include "tests/app/files/machine_files.h"
 #include "tests/app/files/refusal.h"
 

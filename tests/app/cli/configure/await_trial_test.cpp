@@ -5,7 +5,7 @@
 
 #include <thread>
 
-#include "app/files/trial.h"
+#include "app/files/runtime/trial.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::cli {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/files/rig_file.h"
+#include "app/files/rig/rig_file.h"
 #include "proc/align/detect/ball_detector.h"
 #include "proc/align/register/feature_registration.h"
 #include "proc/align/register/gradient_registration.h"
