@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/model/accepted_alignments.h"
-#include "app/model/place_settings.h"
-#include "app/model/watch_settings.h"
+#include "app/model/alignment/accepted_alignments.h"
+#include "app/model/alignment/place_settings.h"
+#include "app/model/alignment/watch_settings.h"
 #include "proc/optics/rig.h"
 
 namespace orbwatch::app {

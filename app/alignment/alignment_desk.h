@@ -15,9 +15,9 @@
 #include "app/alignment/alignment_finder.h"
 #include "app/alignment/alignment_pictures.h"
 #include "app/alignment/watched_cameras.h"
-#include "app/model/accepted_alignments.h"
-#include "app/model/alignment.h"
-#include "app/model/command.h"
+#include "app/model/alignment/accepted_alignments.h"
+#include "app/model/alignment/alignment.h"
+#include "app/model/command/command.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {

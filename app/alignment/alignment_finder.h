@@ -10,7 +10,7 @@
 #include "app/alignment/alignment_proposal.h"
 #include "app/alignment/point_marks.h"
 #include "app/alignment/watched_cameras.h"
-#include "app/model/alignment.h"
+#include "app/model/alignment/alignment.h"
 
 namespace orbwatch::app {
 

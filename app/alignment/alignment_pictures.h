@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/alignment/watched_cameras.h"
-#include "app/model/alignment.h"
+#include "app/model/alignment/alignment.h"
 #include "hal/thread/bounded_queue.h"
 #include "hal/thread/shared_threads.h"
 

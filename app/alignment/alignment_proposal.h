@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/model/rig_alignment.h"
+#include "app/model/alignment/rig_alignment.h"
 #include "proc/signals/signals.h"
 
 namespace orbwatch::app {

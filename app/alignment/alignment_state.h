@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/alignment.h"
+#include "app/model/alignment/alignment.h"
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "app/model/rig_alignment.h"
+#include "app/model/alignment/rig_alignment.h"
 #include "proc/align/drift/drift_monitor.h"
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/model/alignment.h"
-#include "app/model/place_settings.h"
-#include "app/model/rig_alignment.h"
+#include "app/model/alignment/alignment.h"
+#include "app/model/alignment/place_settings.h"
+#include "app/model/alignment/rig_alignment.h"
 #include "proc/align/place/placement.h"
 #include "proc/align/place/tags/printed_tag.h"
 #include "proc/image/picture.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::cli {

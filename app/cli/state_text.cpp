@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/cli/text_table.h"
-#include "app/model/json.h"
-#include "app/model/utc_text.h"
+#include "app/model/status/json.h"
+#include "app/model/status/utc_text.h"
 
 namespace orbwatch::app::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/files/runtime/calibration_file.h"
 #include "app/log.h"
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 #include "app/state/private_file.h"
 
 namespace orbwatch::app {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/files/resolve.h"
-#include "app/model/accepted_alignments.h"
+#include "app/model/alignment/accepted_alignments.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

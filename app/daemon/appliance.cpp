@@ -5,10 +5,10 @@
 #include <tuple>
 #include <utility>
 
-#include "app/daemon/assumptions.h"
-#include "app/daemon/build.h"
-#include "app/daemon/cameras.h"
-#include "app/daemon/site_plan.h"
+#include "app/daemon/site/assumptions.h"
+#include "app/daemon/site/build.h"
+#include "app/daemon/site/cameras.h"
+#include "app/daemon/site/site_plan.h"
 #include "app/health/board_health.h"
 #include "app/log.h"
 #include "hal/thread/scheduling.h"

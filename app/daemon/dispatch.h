@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/alignment/alignment_desk.h"
-#include "app/model/command.h"
-#include "app/model/restart.h"
+#include "app/model/command/command.h"
+#include "app/model/command/restart.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"

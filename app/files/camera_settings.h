@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/model/watch_settings.h"
+#include "app/model/alignment/watch_settings.h"
 #include "app/pipeline/views/view_settings.h"
 #include "app/ports/lines/line_settings.h"
 #include "app/simulation/simulated_camera_settings.h"

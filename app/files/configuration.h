@@ -9,7 +9,7 @@
 
 #include "app/files/camera_settings.h"
 #include "app/files/toml/finding.h"
-#include "app/model/place_settings.h"
+#include "app/model/alignment/place_settings.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "app/pipeline/pipeline_settings.h"
 #include "app/pipeline/views/view_settings.h"
@@ -28,7 +28,7 @@ namespace orbwatch::app {
 /// The list of sinks, one per line. A settings struct has the name and the meaning of its table as
 /// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
 /// if it is not enabled. Its parameters name what the sink is made with, see SinkParts in
-/// app/daemon/interfaces.cpp. Beside it stand, for a sink that
+/// app/daemon/site/interfaces.cpp. Beside it stand, for a sink that
 /// - takes commands: commanders(), the clients that may command through it;
 /// - has keys or certificates: check_keys();
 /// - listens on TCP ports: listening_ports();

@@ -10,7 +10,7 @@
 #include "app/files/configuration.h"
 #include "app/files/runtime/calibration_file.h"
 #include "app/files/text/text_file.h"
-#include "app/model/status_report.h"
+#include "app/model/status/status_report.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "app/health/throttling.h"
-#include "app/model/health.h"
+#include "app/model/status/health.h"
 
 namespace orbwatch::app {
 

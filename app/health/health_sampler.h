@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "app/model/health.h"
+#include "app/model/status/health.h"
 #include "hal/clock.h"
 #include "hal/thread/priority_mutex.h"
 #include "hal/thread/shared_threads.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/model/health.h"
+#include "app/model/status/health.h"
 
 namespace orbwatch::app {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 #include "app/pipeline/measurement/recipe_plan.h"
 #include "app/pipeline/second_meter.h"
 #include "hal/camera.h"

@@ -12,10 +12,10 @@
 #include <span>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/sink.h"
-#include "app/model/status.h"
-#include "app/model/view.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/sink.h"
+#include "app/model/sink/view.h"
+#include "app/model/status/status.h"
 #include "app/pipeline/camera_group.h"
 #include "app/pipeline/frame_budget.h"
 #include "app/pipeline/measurement/compiled_recipe.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <chrono>
 
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 #include "app/pipeline/second_meter.h"
 #include "hal/clock.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/model/sink.h"
+#include "app/model/sink/sink.h"
 #include "hal/clock.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/thread.h"

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "app/state/slot_file.h"
 
 namespace orbwatch::app {

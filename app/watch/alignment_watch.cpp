@@ -9,7 +9,7 @@
 #include "app/log.h"
 #include "app/watch/kept_file.h"
 #include "hal/replay/picture_decoder.h"
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "app/model/status.h"
-#include "app/model/watch_settings.h"
+#include "app/model/alignment/watch_settings.h"
+#include "app/model/status/status.h"
 #include "hal/clock.h"
 #include "proc/align/drift/drift_monitor.h"
 #include "proc/image/picture.h"

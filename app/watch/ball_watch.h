@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "app/model/status.h"
-#include "app/model/watch_settings.h"
+#include "app/model/alignment/watch_settings.h"
+#include "app/model/status/status.h"
 #include "hal/clock.h"
 #include "proc/align/condition/dirt_watch.h"
 #include "proc/image/picture.h"

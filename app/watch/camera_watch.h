@@ -14,8 +14,8 @@
 
 #include "app/alignment/aligned_site.h"
 #include "app/alignment/watched_cameras.h"
-#include "app/model/sink.h"
-#include "app/model/status.h"
+#include "app/model/sink/sink.h"
+#include "app/model/status/status.h"
 #include "app/watch/alignment_watch.h"
 #include "app/watch/ball_watch.h"
 #include "hal/fault.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/sink.h"
+#include "app/model/sink/sink.h"
 
 namespace orbwatch::app::tests {
 

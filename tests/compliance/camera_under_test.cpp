@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <variant>
 
-#include "app/daemon/cameras.h"
+#include "app/daemon/site/cameras.h"
 #include "app/files/text/text_file.h"
 #include "app/files/toml/toml_reader.h"
 

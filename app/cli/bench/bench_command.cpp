@@ -6,7 +6,7 @@
 #include "app/cli/bench/bench_site.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
-#include "app/daemon/site_check.h"
+#include "app/daemon/site/site_check.h"
 #include "app/files/runtime/site_file.h"
 
 namespace orbwatch::app::cli {

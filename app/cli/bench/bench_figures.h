@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/cli/bench/thread_loads.h"
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 
 namespace orbwatch::app::cli {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/cli/bench/bench_figures.h"
-#include "app/model/sink.h"
+#include "app/model/sink/sink.h"
 
 namespace orbwatch::app::cli {
 

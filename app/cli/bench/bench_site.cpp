@@ -7,8 +7,8 @@
 #include <utility>
 #include <variant>
 
-#include "app/daemon/cameras.h"
-#include "app/daemon/site_plan.h"
+#include "app/daemon/site/cameras.h"
+#include "app/daemon/site/site_plan.h"
 
 namespace orbwatch::app::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/cli/bench/bench_figures.h"
 #include "app/cli/text_table.h"
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 
 namespace orbwatch::app::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include "app/cli/command.h"
 #include "app/cli/configure/await_trial.h"
 #include "app/cli/options/options.h"
-#include "app/daemon/new_configuration.h"
-#include "app/daemon/replaceable_file.h"
+#include "app/daemon/configuration/new_configuration.h"
+#include "app/daemon/configuration/replaceable_file.h"
 #include "app/files/resolve.h"
 #include "app/files/runtime/site_file.h"
 #include "app/files/runtime/trial.h"
-#include "app/model/configuration_files.h"
+#include "app/model/configuration/configuration_files.h"
 #include "app/state/state_folder.h"
 
 namespace orbwatch::app::cli {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "app/ports/dds/commands/command_request.h"
 #include "app/ports/dds/security/participant_security.h"
 #include "proc/image/result.h"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "app/model/fleet.h"
+#include "app/model/fleet/fleet.h"
 #include "app/ports/dds/security/participant_security.h"
 #include "proc/image/result.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/readings.h"
+#include "app/model/status/readings.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/status/process_state.h"
 #include "app/ports/dds/topics/topic_reader.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 
 namespace orbwatch::app::cli {
 namespace {

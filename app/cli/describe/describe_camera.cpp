@@ -11,7 +11,7 @@
 #include "app/cli/options/camera_options.h"
 #include "app/files/rig/camera_calibration.h"
 #include "app/files/rig/rig_file.h"
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 #include "proc/optics/ball_model.h"
 #include "proc/optics/vec.h"
 

@@ -5,7 +5,7 @@
 
 #include "app/cli/options/options.h"
 #include "app/exit_status.h"
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 
 namespace orbwatch::app::cli {
 namespace {

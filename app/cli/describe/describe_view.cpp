@@ -10,7 +10,7 @@
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/view_options.h"
 #include "app/cli/text_table.h"
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 #include "app/pictures/picture_file.h"
 #include "app/pipeline/views/view_settings.h"
 #include "proc/image/image_view.h"

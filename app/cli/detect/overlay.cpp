@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/pictures/picture_file.h"
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 #include "proc/align/first_plane.h"
 
 namespace orbwatch::app::cli {

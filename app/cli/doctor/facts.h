@@ -9,7 +9,7 @@
 
 #include "app/cli/doctor/board.h"
 #include "app/files/configuration.h"
-#include "app/model/health.h"
+#include "app/model/status/health.h"
 #include "hal/lines/line.h"
 
 /// Input of the checks, which do not access the computer themselves. Texts come from devices and

@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "app/cli/doctor/program_output.h"
-#include "app/daemon/site_check.h"
+#include "app/daemon/site/site_check.h"
 #include "app/files/resolve.h"
 #include "app/health/board_health.h"
 #include "app/health/system_file.h"

@@ -8,7 +8,7 @@
 
 #include "app/cli/doctor/gather.h"
 #include "app/cli/doctor/program_output.h"
-#include "app/daemon/site_check.h"
+#include "app/daemon/site/site_check.h"
 #include "app/health/system_file.h"
 #include "hal/socket_address.h"
 #include "hal/thread/file_descriptor.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/text_table.h"
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/fleet/fleet_records.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/fleet.h"
+#include "app/model/fleet/fleet.h"
 #include "hal/inventory.h"
 
 namespace orbwatch::app::cli {

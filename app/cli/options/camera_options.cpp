@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/files/rig/rig_file.h"
-#include "app/model/register_advice.h"
+#include "app/model/alignment/register_advice.h"
 #include "proc/remap/remap.h"
 
 namespace orbwatch::app::cli {

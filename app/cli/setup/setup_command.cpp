@@ -10,7 +10,7 @@
 #include "app/cli/setup/setup_options.h"
 #include "app/cli/setup/setup_text.h"
 #include "app/cli/setup/site_files.h"
-#include "app/daemon/cameras.h"
+#include "app/daemon/site/cameras.h"
 
 namespace orbwatch::app::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/cli/detect/overlay.h"
 #include "app/cli/staged_folder.h"
-#include "app/daemon/site_check.h"
+#include "app/daemon/site/site_check.h"
 #include "app/files/resolve.h"
 #include "app/files/rig/camera_calibration.h"
 #include "app/files/toml/toml_text.h"

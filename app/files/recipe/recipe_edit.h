@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/model/recipe_change.h"
+#include "app/model/configuration/recipe_change.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

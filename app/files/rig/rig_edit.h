@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/model/rig_alignment.h"
+#include "app/model/alignment/rig_alignment.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

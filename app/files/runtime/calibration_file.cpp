@@ -11,7 +11,7 @@
 #include "app/files/rig/rig_settings.h"
 #include "app/files/toml/toml_reader.h"
 #include "app/files/toml/toml_text.h"
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 #include "hal/atomic_file.h"
 
 namespace orbwatch::app {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/files/text/text_file.h"
-#include "app/model/accepted_alignments.h"
+#include "app/model/alignment/accepted_alignments.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

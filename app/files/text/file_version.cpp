@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "app/files/text/text_file.h"
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 #include "app/pipeline/measurement/recipe_plan.h"
 #include "app/pipeline/views/view_channel.h"
 #include "hal/clock.h"

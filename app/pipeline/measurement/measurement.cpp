@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/model/result_number.h"
+#include "app/model/status/result_number.h"
 
 namespace orbwatch::app {
 namespace {

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "app/model/alarm_notice.h"
-#include "app/model/command.h"
-#include "app/model/status.h"
+#include "app/model/command/command.h"
+#include "app/model/status/alarm_notice.h"
+#include "app/model/status/status.h"
 #include "app/pipeline/measurement/compiled_recipe.h"
 #include "app/pipeline/measurement/recipe_switch.h"
 #include "hal/lines/process_input.h"

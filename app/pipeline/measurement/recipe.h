@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 #include "app/pipeline/measurement/recipe_plan.h"
 #include "app/pipeline/views/view_settings.h"
 #include "proc/settings/settings.h"

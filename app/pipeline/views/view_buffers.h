@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/pipeline/views/view_plan.h"
 #include "hal/frame/buffer_pool.h"
 

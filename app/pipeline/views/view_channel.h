@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/pipeline/views/frame_pyramids.h"
 #include "app/pipeline/views/view_buffers.h"
 #include "app/pipeline/views/view_plan.h"

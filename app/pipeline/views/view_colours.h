@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/view.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/view.h"
 #include "app/pipeline/views/view_plan.h"
 #include "hal/thread/priority_mutex.h"
 

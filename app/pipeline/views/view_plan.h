@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "hal/camera.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"

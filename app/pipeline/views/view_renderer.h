@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/pipeline/views/frame_pyramids.h"
 #include "app/pipeline/views/view_colours.h"
 #include "app/pipeline/views/view_plan.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string_view>
 
-#include "app/model/sink.h"
-#include "app/model/status_report.h"
+#include "app/model/sink/sink.h"
+#include "app/model/status/status_report.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {

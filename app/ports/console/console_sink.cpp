@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/model/readings.h"
+#include "app/model/status/readings.h"
 
 namespace orbwatch::app {
 namespace {

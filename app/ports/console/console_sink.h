@@ -8,10 +8,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/model/field.h"
-#include "app/model/interface_metric.h"
-#include "app/model/sink.h"
-#include "app/model/status_report.h"
+#include "app/model/sink/interface_metric.h"
+#include "app/model/sink/sink.h"
+#include "app/model/status/field.h"
+#include "app/model/status/status_report.h"
 #include "app/ports/console/console_settings.h"
 #include "app/ports/console/waitless_output.h"
 #include "hal/thread/thread.h"

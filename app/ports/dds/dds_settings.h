@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/appliance_notice.h"
-#include "app/model/command_path.h"
-#include "app/model/published.h"
-#include "app/model/sink.h"
-#include "app/model/status_report.h"
+#include "app/model/command/command_path.h"
+#include "app/model/fleet/appliance_notice.h"
+#include "app/model/sink/published.h"
+#include "app/model/sink/sink.h"
+#include "app/model/status/status_report.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/dds/ros/ros_node.h"
 #include "app/ports/dds/security/participant_security.h"

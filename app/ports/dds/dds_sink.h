@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/sink.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/sink.h"
 #include "app/ports/dds/commands/command_service.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/fleet/fleet_member.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/log.h"
-#include "app/model/condition.h"
+#include "app/model/status/condition.h"
 #include "hal/lines/gpio/gpio_lines.h"
 #include "hal/lines/watched_output.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/sink.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/sink.h"
 #include "app/ports/lines/line_settings.h"
 #include "hal/camera.h"
 #include "hal/lines/frame_trigger.h"

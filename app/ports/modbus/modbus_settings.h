@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/command_path.h"
-#include "app/model/listening_port.h"
-#include "app/model/sink.h"
+#include "app/model/command/command_path.h"
+#include "app/model/sink/listening_port.h"
+#include "app/model/sink/sink.h"
 #include "app/ports/modbus/server/access_list.h"
 #include "hal/network.h"
 #include "proc/settings/settings.h"

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/sink.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/sink.h"
 #include "app/ports/modbus/map/process_image.h"
 #include "app/ports/modbus/map/register_map.h"
 #include "app/ports/modbus/modbus_settings.h"

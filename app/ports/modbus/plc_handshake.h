@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <mutex>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "app/ports/modbus/map/process_image.h"
 #include "app/ports/modbus/server/request.h"
 #include "app/state/command_record.h"

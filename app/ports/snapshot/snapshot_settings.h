@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "app/model/sink.h"
+#include "app/model/sink/sink.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {

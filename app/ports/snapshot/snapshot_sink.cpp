@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "app/log.h"
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 #include "app/pictures/picture_file.h"
 #include "hal/atomic_file.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "app/model/command.h"
-#include "app/model/sink.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/sink.h"
 #include "app/ports/snapshot/snapshot_settings.h"
 #include "hal/thread/bounded_queue.h"
 #include "hal/thread/thread.h"

@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "app/model/command_path.h"
-#include "app/model/interface_metric.h"
-#include "app/model/interface_table.h"
-#include "app/model/measured_recipe.h"
-#include "app/model/program.h"
-#include "app/model/published.h"
-#include "app/model/status_report.h"
+#include "app/model/command/command_path.h"
+#include "app/model/configuration/program.h"
+#include "app/model/sink/interface_metric.h"
+#include "app/model/sink/interface_table.h"
+#include "app/model/sink/published.h"
+#include "app/model/status/measured_recipe.h"
+#include "app/model/status/status_report.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/optics/scene_proxy.h"
 

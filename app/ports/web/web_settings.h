@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "app/certificates/dates.h"
-#include "app/model/appliance_notice.h"
-#include "app/model/command_path.h"
-#include "app/model/listening_port.h"
-#include "app/model/published.h"
-#include "app/model/sink.h"
-#include "app/model/status_report.h"
+#include "app/model/command/command_path.h"
+#include "app/model/fleet/appliance_notice.h"
+#include "app/model/sink/listening_port.h"
+#include "app/model/sink/published.h"
+#include "app/model/sink/sink.h"
+#include "app/model/status/status_report.h"
 #include "app/pictures/jpeg_quality.h"
 #include "hal/host.h"
 #include "hal/network.h"

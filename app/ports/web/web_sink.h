@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "app/model/sink.h"
+#include "app/model/sink/sink.h"
 #include "app/ports/web/access/access.h"
 #include "app/ports/web/access/access_desk.h"
-#include "app/ports/web/access/audit.h"
+#include "app/ports/web/access/audit/audit.h"
 #include "app/ports/web/align/align_routes.h"
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/route.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::align {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "proc/align/detect/ball_search.h"
 #include "proc/align/detect/certainty.h"
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::align {
 namespace {

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "proc/align/detect/centre_votes.h"
-#include "proc/align/detect/limb_fit.h"
-#include "proc/align/detect/limb_likelihood.h"
-#include "proc/align/detect/limb_score.h"
-#include "proc/align/detect/ring_search.h"
-#include "proc/align/detect/ring_strip.h"
-#include "proc/align/detect/slopes.h"
+#include "proc/align/detect/limb/limb_fit.h"
+#include "proc/align/detect/limb/limb_likelihood.h"
+#include "proc/align/detect/limb/limb_score.h"
+#include "proc/align/detect/picture/slopes.h"
+#include "proc/align/detect/ring/ring_search.h"
+#include "proc/align/detect/ring/ring_strip.h"
 
 namespace orbwatch::align {
 namespace {

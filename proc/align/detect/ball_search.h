@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "proc/align/detect/certainty.h"
-#include "proc/align/detect/pyramid.h"
+#include "proc/align/detect/picture/pyramid.h"
 #include "proc/optics/outline.h"
 
 namespace orbwatch::align {

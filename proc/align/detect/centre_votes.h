@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "proc/align/detect/slopes.h"
+#include "proc/align/detect/picture/slopes.h"
 #include "proc/optics/vec.h"
 
 namespace orbwatch::align {

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::align {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "proc/align/detect/luminance.h"
-#include "proc/align/register/gradient_field.h"
+#include "proc/align/detect/picture/luminance.h"
+#include "proc/align/register/gradients/gradient_field.h"
 #include "proc/align/register/sphere_view.h"
 #include "proc/align/register/spiral.h"
 #include "proc/optics/scene_proxy.h"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::align {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proc/align/register/camera_registration.h"
 
-#include "proc/align/register/bright_spots.h"
-#include "proc/align/register/feature_registration.h"
-#include "proc/align/register/gradient_registration.h"
+#include "proc/align/register/features/feature_registration.h"
+#include "proc/align/register/gradients/gradient_registration.h"
+#include "proc/align/register/light/bright_spots.h"
 
 namespace orbwatch::align {
 namespace {

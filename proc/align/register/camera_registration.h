@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "proc/align/register/light_registration.h"
+#include "proc/align/register/light/light_registration.h"
 #include "proc/align/register/registration.h"
 #include "proc/settings/settings.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "app/model/rig_alignment.h"
+#include "app/model/alignment/rig_alignment.h"
 #include "proc/align/register/registration.h"
 #include "tests/app/alignment/rig_with_pose.h"
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "app/ports/web/access/first_code.h"
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/first_code.h"
+#include "app/ports/web/access/login/secret.h"
 #include "app/ports/web/access/users.h"
 #include "app/ports/web/tls/server_certificate.h"
 #include "tests/app/cli/command_line.h"

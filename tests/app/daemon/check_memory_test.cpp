@@ -9,8 +9,8 @@
 #include <functional>
 #include <new>
 
-#include "app/daemon/build.h"
-#include "app/daemon/site_check.h"
+#include "app/daemon/site/build.h"
+#include "app/daemon/site/site_check.h"
 #include "tests/app/daemon/demo_site.h"
 
 namespace {

@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "tests/support/loopback_dds.h"
 #include "tests/support/registers.h"
 #include "tests/support/subprocess.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/status.h"
+#include "app/model/command/command.h"
+#include "app/model/status/status.h"
 #include "tests/app/daemon/daemon_program.h"
 
 /// Recipes, results, snapshots and restarts commanded by a PLC.

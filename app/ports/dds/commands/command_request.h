@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "app/ports/dds/generated/command.h"
 #include "app/state/command_record.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/appliance_notice.h"
+#include "app/model/fleet/appliance_notice.h"
 #include "app/ports/dds/generated/appliance.h"
 #include "proc/image/result.h"
 

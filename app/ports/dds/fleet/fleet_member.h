@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/fleet.h"
+#include "app/model/fleet/fleet.h"
 #include "app/ports/dds/fleet/fleet_reader.h"
 #include "app/ports/dds/pictures/picture_topic.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/fleet.h"
+#include "app/model/fleet/fleet.h"
 #include "app/ports/dds/topics/topic_reader.h"
 
 namespace orbwatch::app {

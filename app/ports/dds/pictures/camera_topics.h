@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/published.h"
+#include "app/model/sink/published.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/pictures/info_topic.h"
 #include "app/ports/dds/pictures/picture_topic.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/picture_needs.h"
+#include "app/model/sink/picture_needs.h"
 #include "app/ports/dds/pictures/picture_writer.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/shared_threads.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/published.h"
-#include "app/model/view.h"
+#include "app/model/sink/published.h"
+#include "app/model/sink/view.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/pictures/info_topic.h"
 #include "app/ports/dds/pictures/picture_topic.h"

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/model/field.h"
+#include "app/model/status/field.h"
 #include "app/ports/dds/topics/topic_writer.h"
 
 namespace orbwatch::app {

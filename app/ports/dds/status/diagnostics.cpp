@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdio>
 
-#include "app/model/condition.h"
-#include "app/model/readings.h"
+#include "app/model/status/condition.h"
+#include "app/model/status/readings.h"
 #include "app/ports/dds/ros/ros_node.h"
 #include "app/ports/dds/status/process_state.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/status/event_message.h"
 
-#include "app/model/condition.h"
+#include "app/model/status/condition.h"
 
 namespace orbwatch::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/alarm_notice.h"
+#include "app/model/status/alarm_notice.h"
 #include "app/ports/dds/generated/event.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/status/process_state.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/readings.h"
+#include "app/model/status/readings.h"
 #include "app/ports/dds/generated/process_state.h"
 #include "app/ports/dds/status/dds_statistics.h"
 

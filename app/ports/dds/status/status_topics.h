@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/status_report.h"
+#include "app/model/status/status_report.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/status/dds_statistics.h"
 #include "app/ports/dds/status/diagnostics.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <type_traits>
 
-#include "app/model/field.h"
+#include "app/model/status/field.h"
 #include "app/ports/dds/participant/entity.h"
 
 namespace orbwatch::app {

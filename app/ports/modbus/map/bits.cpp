@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "app/model/condition.h"
+#include "app/model/status/condition.h"
 
 namespace orbwatch::app::modbus {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <type_traits>
 
-#include "app/model/field.h"
+#include "app/model/status/field.h"
 #include "app/ports/modbus/map/register_map.h"
 
 /// Conversion of values to the contents of registers, and the resulting types and ranges of rows.

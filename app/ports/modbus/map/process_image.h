@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "app/model/command.h"
-#include "app/model/status.h"
+#include "app/model/command/command.h"
+#include "app/model/status/status.h"
 
 /// Data from which one request is answered: the model's status, and the parts that this interface
-/// adds to it, described by lines of the same form (app/model/field.h).
+/// adds to it, described by lines of the same form (app/model/status/field.h).
 namespace orbwatch::app::modbus {
 
 /// Limit of results that wait for the PLC.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "app/model/condition.h"
+#include "app/model/status/condition.h"
 #include "app/ports/modbus/map/block.h"
 #include "app/ports/modbus/map/rows.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/interface_table.h"
+#include "app/model/sink/interface_table.h"
 #include "app/ports/modbus/map/process_image.h"
 #include "app/ports/modbus/map/register_map.h"
 

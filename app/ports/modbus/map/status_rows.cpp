@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/model/condition.h"
+#include "app/model/status/condition.h"
 #include "app/ports/modbus/map/bits.h"
 #include "app/ports/modbus/map/block.h"
 #include "app/ports/modbus/map/rows.h"

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "app/log.h"
-#include "app/ports/web/access/first_code.h"
-#include "app/ports/web/access/kept_logins.h"
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/first_code.h"
+#include "app/ports/web/access/login/kept_logins.h"
+#include "app/ports/web/access/login/secret.h"
 #include "app/ports/web/http/address.h"
 #include "hal/network.h"
 

@@ -12,8 +12,8 @@
 #include <tl/expected.hpp>
 
 #include "app/ports/web/access/caller.h"
-#include "app/ports/web/access/login_limits.h"
-#include "app/ports/web/access/sessions.h"
+#include "app/ports/web/access/login/login_limits.h"
+#include "app/ports/web/access/login/sessions.h"
 #include "app/ports/web/access/users.h"
 
 namespace orbwatch::app::web {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/secret.h"
 
 namespace orbwatch::app::web {
 namespace {

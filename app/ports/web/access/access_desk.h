@@ -8,7 +8,7 @@
 
 #include "app/ports/web/access/access.h"
 #include "app/ports/web/access/access_records.h"
-#include "app/ports/web/access/audit.h"
+#include "app/ports/web/access/audit/audit.h"
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/api/route.h"

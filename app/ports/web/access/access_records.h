@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/role.h"
-#include "app/ports/web/access/audit_entry.h"
-#include "app/ports/web/access/secret.h"
+#include "app/model/command/role.h"
+#include "app/ports/web/access/audit/audit_entry.h"
+#include "app/ports/web/access/login/secret.h"
 #include "app/ports/web/access/users.h"
 
 /// Bodies and answers of AccessDesk.

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/model/role.h"
+#include "app/model/command/role.h"
 #include "app/ports/web/http/message.h"
 
 namespace orbwatch::app::web {

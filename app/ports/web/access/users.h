@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/role.h"
+#include "app/model/command/role.h"
 #include "proc/image/result.h"
 
 /// Users and programs that may log in: users.json of the state folder.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/alignment.h"
+#include "app/model/alignment/alignment.h"
 #include "proc/image/picture.h"
 #include "proc/optics/ball_model.h"
 #include "proc/settings/settings.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "app/model/role.h"
+#include "app/model/command/role.h"
 #include "app/ports/web/access/access.h"
-#include "app/ports/web/access/audit.h"
+#include "app/ports/web/access/audit/audit.h"
 #include "app/ports/web/access/caller.h"
 #include "app/ports/web/access/slow_work.h"
 #include "app/ports/web/http/exchange.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 
 namespace orbwatch::app::web {
 namespace {

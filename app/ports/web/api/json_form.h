@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "proc/image/result.h"
 
 /// Schemas in the form of OpenAPI 3.0, and the check of values against them: a value that is not

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 #include "app/ports/web/api/json_form.h"
 #include "proc/optics/vec.h"
 #include "proc/settings/settings.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "app/model/field.h"
+#include "app/model/status/field.h"
 #include "app/ports/web/api/record.h"
 
 /// Schemas of records, in the form of OpenAPI 3.0. All reentrant.

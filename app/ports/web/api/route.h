@@ -7,8 +7,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/role.h"
+#include "app/model/command/command.h"
+#include "app/model/command/role.h"
 #include "app/ports/web/api/json_form.h"
 #include "app/ports/web/http/exchange.h"
 

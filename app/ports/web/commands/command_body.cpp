@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 #include "app/ports/web/api/json_form.h"
 
 namespace orbwatch::app::web {

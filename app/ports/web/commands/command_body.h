@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::web {

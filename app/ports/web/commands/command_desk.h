@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/command_path.h"
+#include "app/model/command/command_path.h"
 #include "app/ports/web/access/access.h"
-#include "app/ports/web/access/audit.h"
+#include "app/ports/web/access/audit/audit.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/views/view_list.h"

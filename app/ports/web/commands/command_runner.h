@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/state/command_record.h"
 #include "hal/thread/bounded_queue.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "app/model/configuration_files.h"
-#include "app/ports/web/access/audit.h"
+#include "app/model/configuration/configuration_files.h"
+#include "app/ports/web/access/audit/audit.h"
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/api/route.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/configuration_files.h"
+#include "app/model/configuration/configuration_files.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {

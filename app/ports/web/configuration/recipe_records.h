@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/model/recipe_change.h"
+#include "app/model/configuration/recipe_change.h"
 #include "app/ports/web/configuration/configuration_records.h"
 #include "proc/signals/alarm_board.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/fleet.h"
+#include "app/model/fleet/fleet.h"
 
 /// Records of the appliances of the DDS domain.
 namespace orbwatch::app::web {

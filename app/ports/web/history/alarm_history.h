@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "app/model/alarm_notice.h"
+#include "app/model/status/alarm_notice.h"
 #include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::app::web {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "app/model/readings.h"
-#include "app/model/status.h"
+#include "app/model/status/readings.h"
+#include "app/model/status/status.h"
 
 namespace orbwatch::app::web {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/status_report.h"
+#include "app/model/status/status_report.h"
 #include "app/ports/web/history/extremes.h"
 #include "hal/clock.h"
 #include "hal/thread/priority_mutex.h"

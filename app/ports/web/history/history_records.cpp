@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 
 namespace orbwatch::app::web {
 namespace {

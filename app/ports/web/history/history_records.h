@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/measured_recipe.h"
+#include "app/model/status/measured_recipe.h"
 #include "app/ports/web/history/alarm_history.h"
 #include "app/ports/web/history/figure_history.h"
 #include "proc/settings/settings.h"
@@ -51,7 +51,7 @@ void visit(Visitor& v, AlarmsQuery& query) {
   v.optional("events", query.events, Range::between(0, AlarmHistory::kMost), "Limit of events");
 }
 
-/// An event with the readings of app/model/alarm_notice.h.
+/// An event with the readings of app/model/status/alarm_notice.h.
 struct SentAlarmEvent {
   AlarmNotice notice;
   std::string time, name;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/model/measured_recipe.h"
+#include "app/model/status/measured_recipe.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/history/alarm_history.h"
 #include "app/ports/web/history/figure_history.h"

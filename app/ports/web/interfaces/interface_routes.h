@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/interface_table.h"
-#include "app/model/program.h"
+#include "app/model/configuration/program.h"
+#include "app/model/sink/interface_table.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/api/route.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 
 namespace orbwatch::app::web {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/published.h"
-#include "app/model/status_report.h"
+#include "app/model/sink/published.h"
+#include "app/model/status/status_report.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/streams/view_query.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 #include "proc/image/celsius.h"
 #include "proc/optics/rotation.h"
 #include "proc/remap/remap.h"

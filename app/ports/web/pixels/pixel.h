@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/ports/web/pixels/pixel_records.h"
 #include "proc/optics/scene_proxy.h"
 #include "proc/optics/view_projection.h"

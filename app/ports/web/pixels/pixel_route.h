@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/pixels/pixel_records.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/measured_recipe.h"
+#include "app/model/status/measured_recipe.h"
 #include "app/ports/web/streams/view_query.h"
 #include "proc/image/result.h"
 #include "proc/signals/region.h"

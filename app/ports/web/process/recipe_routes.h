@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/measured_recipe.h"
+#include "app/model/status/measured_recipe.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/process/measured_recipe_records.h"
 #include "proc/signals/region.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/readings.h"
+#include "app/model/status/readings.h"
 
 namespace orbwatch::app::web {
 namespace {

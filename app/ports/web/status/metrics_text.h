@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/model/interface_metric.h"
-#include "app/model/status_report.h"
+#include "app/model/sink/interface_metric.h"
+#include "app/model/status/status_report.h"
 #include "app/ports/web/status/web_statistics.h"
 
 namespace orbwatch::app::web {

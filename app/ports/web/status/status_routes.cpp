@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/model/condition.h"
-#include "app/model/json.h"
-#include "app/model/readings.h"
-#include "app/model/utc_text.h"
+#include "app/model/status/condition.h"
+#include "app/model/status/json.h"
+#include "app/model/status/readings.h"
+#include "app/model/status/utc_text.h"
 #include "app/ports/web/status/metrics_text.h"
 
 namespace orbwatch::app::web {

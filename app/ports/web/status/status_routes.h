@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/interface_metric.h"
-#include "app/model/status_report.h"
+#include "app/model/sink/interface_metric.h"
+#include "app/model/status/status_report.h"
 #include "app/ports/web/http/message.h"
 #include "app/ports/web/status/status_schema.h"
 #include "app/ports/web/status/web_statistics.h"
@@ -36,7 +36,7 @@ class StatusRoutes {
 
   Response health() const;
   /// "stamp" in UTC or null, "age" of the pipeline's last report in seconds, then every component
-  /// in the form of app/model/json.h.
+  /// in the form of app/model/status/json.h.
   Response status() const;
   Response metrics() const;
 

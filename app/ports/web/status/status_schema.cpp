@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "app/model/readings.h"
+#include "app/model/status/readings.h"
 #include "app/ports/web/api/record_schema.h"
 #include "app/ports/web/status/web_statistics.h"
 
@@ -21,7 +21,7 @@ Json object_schema(Json properties) {
           {"required", std::move(names)}};
 }
 
-/// Schema of a field in the form of app/model/json.cpp.
+/// Schema of a field in the form of app/model/status/json.cpp.
 template <class Value>
 Json figure_schema(const FieldInfo& field) {
   Json figure;

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "app/model/field.h"
-#include "app/model/readings.h"
+#include "app/model/status/field.h"
+#include "app/model/status/readings.h"
 
 namespace orbwatch::app::web {
 

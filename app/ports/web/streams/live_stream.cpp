@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/views/view_records.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/streams/mjpeg_stream.h"
 
-#include "app/model/utc_text.h"
+#include "app/model/status/utc_text.h"
 
 namespace orbwatch::app::web {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <mutex>
 
-#include "app/model/status.h"
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
+#include "app/model/status/status.h"
 
 namespace orbwatch::app::web {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/ports/web/access/access.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/web/streams/feed.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "app/model/command.h"
-#include "app/model/view.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/view.h"
 
 namespace orbwatch::app::web {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/command.h"
-#include "app/model/view.h"
+#include "app/model/command/command.h"
+#include "app/model/sink/view.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/views/aim.h"
 #include "app/ports/web/views/view_records.h"

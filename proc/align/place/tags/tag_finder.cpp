@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <type_traits>
 
-#include "proc/align/detect/luminance.h"
+#include "proc/align/detect/picture/luminance.h"
 #include "proc/align/place/tags/mirror_view.h"
 
 namespace orbwatch::align {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "app/model/status_report.h"
+#include "app/model/status/status_report.h"
 
 namespace orbwatch::app::tests {
 

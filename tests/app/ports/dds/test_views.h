@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "app/model/view.h"
+#include "app/model/sink/view.h"
 
 namespace orbwatch::app::tests {
 

@@ -6,7 +6,7 @@
 #include <deque>
 #include <random>
 
-#include "app/model/result_number.h"
+#include "app/model/status/result_number.h"
 
 namespace orbwatch::app::modbus {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/secret.h"
 #include "app/ports/web/access/users.h"
 #include "tests/app/ports/web/http_client.h"
 

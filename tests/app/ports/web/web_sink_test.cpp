@@ -8,8 +8,8 @@
 #include <regex>
 #include <set>
 
-#include "app/model/json.h"
-#include "app/model/readings.h"
+#include "app/model/status/json.h"
+#include "app/model/status/readings.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """learn_limb_network.py limb|ring STRIPS: learns the weights of a network of
-proc/align/detect/limb_network.cpp from the strips of learn_limb_strips, and prints limb_network.inc or
+proc/align/detect/limb/limb_network.cpp from the strips of learn_limb_strips, and prints limb_network.inc or
 ring_network.inc. Needs python3-torch; takes some minutes.
 
 The network's output is, for each eight rays of a strip, the column in which the limb crosses them, or

@@ -13,9 +13,9 @@
 
 #include "proc/align/detect/ball_search.h"
 #include "proc/align/detect/centre_votes.h"
-#include "proc/align/detect/limb_strip.h"
-#include "proc/align/detect/luminance.h"
-#include "proc/align/detect/ring_strip.h"
+#include "proc/align/detect/limb/limb_strip.h"
+#include "proc/align/detect/picture/luminance.h"
+#include "proc/align/detect/ring/ring_strip.h"
 #include "tests/proc/align/detect/any_room.h"
 #include "tests/support/picture_of_mat.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "proc/align/obstacle/standing_box.h"
-#include "proc/align/register/gradient_registration.h"
+#include "proc/align/register/gradients/gradient_registration.h"
 #include "proc/align/register/spiral.h"
 #include "proc/align/rotation_fit.h"
 #include "tests/proc/align/register/camera_pair.h"

@@ -6,9 +6,9 @@
 
 #include "app/files/rig/rig_file.h"
 #include "proc/align/detect/ball_detector.h"
-#include "proc/align/register/feature_registration.h"
-#include "proc/align/register/gradient_registration.h"
-#include "proc/align/register/light_registration.h"
+#include "proc/align/register/features/feature_registration.h"
+#include "proc/align/register/gradients/gradient_registration.h"
+#include "proc/align/register/light/light_registration.h"
 #include "proc/align/rotation_fit.h"
 #include "tests/proc/align/register/camera_pair.h"
 #include "tests/support/error_distribution.h"

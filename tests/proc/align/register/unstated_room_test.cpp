@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "proc/align/register/line_of_sight.h"
-#include "proc/align/register/refinement.h"
-#include "proc/align/register/rotation_consensus.h"
+#include "proc/align/register/consensus/refinement.h"
+#include "proc/align/register/consensus/rotation_consensus.h"
+#include "proc/align/register/light/line_of_sight.h"
 #include "proc/align/register/spiral.h"
 #include "proc/align/rotation_fit.h"
 

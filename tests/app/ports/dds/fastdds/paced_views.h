@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/sink.h"
+#include "app/model/sink/sink.h"
 #include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/fastdds/pace.h"
 

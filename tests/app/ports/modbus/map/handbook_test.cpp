@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "app/model/command.h"
+#include "app/model/command/command.h"
 #include "app/ports/modbus/map/register_map.h"
 #include "hal/fault.h"
 

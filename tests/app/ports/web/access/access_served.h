@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/secret.h"
 #include "app/ports/web/access/users.h"
 #include "tests/app/ports/web/served.h"
 #include "tests/support/temporary_folder.h"

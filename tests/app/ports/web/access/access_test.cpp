@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/secret.h"
 #include "app/state/private_file.h"
 #include "tests/app/ports/web/access/access_served.h"
 #include "tests/support/temporary_folder.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/login/secret.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 #include "app/ports/web/api/record_schema.h"
 
 namespace orbwatch::app::web::tests {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/configuration_files.h"
+#include "app/model/configuration/configuration_files.h"
 
 namespace orbwatch::app::web::tests {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/model/json.h"
+#include "app/model/status/json.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {

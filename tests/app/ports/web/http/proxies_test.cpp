@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "app/ports/web/access/first_code.h"
+#include "app/ports/web/access/login/first_code.h"
 #include "tests/app/ports/web/access/access_served.h"
 
 /// Tests a complete server behind reverse proxies, with their forms of requests.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/model/measured_recipe.h"
+#include "app/model/status/measured_recipe.h"
 #include "proc/optics/rotation.h"
 #include "tests/app/ports/web/served.h"
 

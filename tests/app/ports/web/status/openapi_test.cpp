@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "app/model/status.h"
+#include "app/model/status/status.h"
 #include "app/ports/web/routes.h"
 
 namespace orbwatch::app::web {

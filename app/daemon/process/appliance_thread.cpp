@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/daemon/process/appliance_thread.h"
+
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "app/daemon/configuration/configuration_choice.h"
+#include "app/daemon/configuration/installed_configuration.h"
+#include "app/daemon/process/run_records.h"
+#include "app/daemon/site/interfaces.h"
+#include "app/log.h"
+#include "app/service/progress_notice.h"
+#include "app/service/service_manager.h"
+#include "app/state/state_folder.h"
+#include "app/version.h"
+
+namespace orbwatch::app {
+namespace {
+
+void notify_of(bool restarts) { restarts ? notify_restart() : notify_end(); }
+
+/// Not open: this is no service, or the folder cannot be written.
+Result<hal::FileDescriptor> reserve_service_folder() {
+  const auto folder = service_folder();
+  return folder ? reserve(*folder) : hal::FileDescriptor();
+}
+
+/// The notice is one of its watchers if someone reads it.
+Result<> start_noticed(Appliance& appliance, ProgressNotice& notice) {
+  if (!has_service_manager()) return appliance.start();
+  return notice.start().and_then([&] { return appliance.start({&notice}); });
+}
+
+}  // namespace
+
+ApplianceThread::ApplianceThread(Context context) : context_(std::move(context)) {}
+
+void ApplianceThread::start() {
+  thread_.start("appliance", [this] {
+    result_ = run();
+    ended_.set();
+    context_.on_end();
+  });
+}
+
+Result<> ApplianceThread::run() {
+  const auto reserved = reserve_service_folder();
+  if (!reserved) return tl::unexpected(reserved.error());
+  const auto chosen = choose(context_.file);
+  if (!chosen) return tl::unexpected(chosen.error());
+  RestartWatch& restarts = context_.restarts;
+  restarts.begin(*chosen);
+  remove_leftovers(chosen->site);
+  record_outputs(chosen->site);
+  ProgressNotice notice(chosen->refusal, context_.is_supervised);  // outlives the run
+  const auto files = std::make_shared<InstalledConfiguration>(context_.file, *chosen);
+  auto appliance = Appliance::make(
+      chosen->site, {[&restarts] { return restarts.check(); }, [&restarts] { restarts.restart(); }},
+      [&](const CalibrationEntry& entry) {
+        return check_acceptance(context_.file, chosen->site, entry);
+      },
+      {files, context_.log, versions("orbwatchd"), commanders_text(chosen->site.site.sinks)});
+  if (!appliance) return tl::unexpected(appliance.error());
+  if (!chosen->refusal.empty()) (*appliance)->report_refused_configuration();
+  publish(appliance->get());
+  if (auto started = start_noticed(**appliance, notice); !started) {
+    publish(nullptr);
+    return started;
+  }
+  for (const std::string& line : (*appliance)->assumptions()) log_line(LogLevel::Info, line);
+  keep(*chosen);
+  restarts.begin_run();
+  if (chosen->trial) files->set_trial_end(restarts.trial_end());
+  serve(**appliance);
+  notify_of(restarts_);
+  publish(nullptr);
+  return {};
+}
+
+/// Takes up what is missing until the end is asked for.
+void ApplianceThread::serve(Appliance& appliance) {
+  Attempts& attempts = appliance.attempts();
+  while (!is_ending_) {
+    thread_.wait_until(attempts.due());
+    if (!is_ending_) attempts.run(hal::Clock::now());
+  }
+}
+
+/// Null: its end begins, in which its lines are still set inactive.
+void ApplianceThread::publish(Appliance* appliance) {
+  const std::lock_guard lock(mutex_);
+  appliance_ = appliance;
+  if (appliance != nullptr) lines_ = appliance->lines();
+}
+
+void ApplianceThread::report_refusal() {
+  const std::lock_guard lock(mutex_);
+  if (appliance_ != nullptr) appliance_->report_refused_configuration();
+}
+
+bool ApplianceThread::end(bool restarts, std::chrono::milliseconds patience) {
+  restarts_ = restarts;
+  is_ending_ = true;
+  thread_.wake();
+  return ended_.wait_for(patience);
+}
+
+bool ApplianceThread::abandon(bool restarts, std::chrono::milliseconds patience) {
+  const auto done = std::make_shared<Completion>();
+  std::weak_ptr<Lines> weak;
+  {
+    const std::lock_guard lock(mutex_);
+    weak = lines_;
+  }
+  std::thread([done, weak, restarts] {
+    if (const auto lines = weak.lock()) lines->make_safe();
+    notify_of(restarts);
+    done->set();
+  }).detach();
+  return done->wait_for(patience);
+}
+
+}  // namespace orbwatch::app

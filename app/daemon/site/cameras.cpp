@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/daemon/site/cameras.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "app/daemon/site/build.h"
+#include "app/pipeline/views/view_renderer.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// What the camera is set to when it is opened, in this order.
+std::vector<ControlSettings> controls_of(const Resolved& site, std::size_t camera) {
+  const CameraSettings& settings = site.site.cameras[camera];
+  std::vector<ControlSettings> controls = settings.controls;
+  if (settings.trigger.mode == hal::TriggerMode::Software) controls.push_back({"TriggerMode", 1});
+  if (site.recipes.empty()) return controls;
+  for (const CameraControl& control : site.recipes.front().controls) {
+    if (control.camera.index == camera) controls.push_back({control.name, control.value});
+  }
+  return controls;
+}
+
+/// A triggered camera's frames queue. Of several sizes, such as the picture with lines of
+/// telemetry, only the rig's can be used.
+hal::StreamRequest stream_of(const CameraSettings& settings, const optics::RigCamera& rig) {
+  hal::StreamRequest stream = settings.stream;
+  if (facts_of(settings.back_end).takes_size_of_rig) {
+    if (stream.width == 0) stream.width = rig.width;
+    if (stream.height == 0) stream.height = rig.height;
+  }
+  const bool triggered = settings.trigger.mode != hal::TriggerMode::Off;
+  stream.buffers = triggered ? hal::kTriggeredBuffers : hal::kFreeRunningBuffers;
+  return stream;
+}
+
+/// Whether the pipeline can use the format that the camera delivers.
+Result<> check_format(const hal::StreamFormat& format, const CameraSettings& settings,
+                      const optics::RigCamera& rig) {
+  const std::string delivers = "delivers " + std::string(info(format.format).name);
+  if (!ViewRenderer::is_supported(format.format)) {
+    return fail(delivers + ", of which no view can be made");
+  }
+  if (settings.radiometry.is_radiometric() && format.format != PixelFormat::Y16) {
+    const std::string advice(facts_of(settings.back_end).radiometric_advice);
+    return fail("is radiometric but " + delivers + "; a radiometric camera delivers y16" +
+                (advice.empty() ? "" : ": " + advice));
+  }
+  if (format.width == rig.width && format.height == rig.height) return {};
+  return fail("delivers " + std::to_string(format.width) + "x" + std::to_string(format.height) +
+              ", but the rig is for " + std::to_string(rig.width) + "x" +
+              std::to_string(rig.height) + " pictures");
+}
+
+std::string kelvin_text(double kelvin) {
+  std::ostringstream text;
+  text << kelvin;
+  return text.str();
+}
+
+/// Kelvin per count as the files or the camera itself say; 0: it is not radiometric. Error: they
+/// contradict each other, or neither says.
+Result<double> scale_of_counts(const hal::Camera& camera, const CameraSettings& settings) {
+  const double stated = settings.radiometry.kelvin_per_count;
+  if (!settings.radiometry.is_radiometric()) return 0;
+  const auto said = camera.count_scale();
+  if (!said && stated > 0) return stated;
+  if (!said) {
+    return fail("is radiometric but does not say its scale; state kelvin_per_count");
+  }
+  if (said->kelvin_per_count <= 0) {
+    return fail("is radiometric but, as it is set, its counts are no temperatures: " +
+                said->said_by + "; set it with [[camera.control]]");
+  }
+  // A file has few digits.
+  constexpr double kSame = 1e-6;
+  if (stated > 0 && std::abs(stated / said->kelvin_per_count - 1) > kSame) {
+    return fail("has kelvin_per_count " + kelvin_text(stated) + ", but says " +
+                kelvin_text(said->kelvin_per_count) + ": " + said->said_by);
+  }
+  if (settings.radiometry.kelvin_offset != 0) {
+    return fail("has kelvin_offset " + kelvin_text(settings.radiometry.kelvin_offset) +
+                ", but says counts that begin at 0 K: " + said->said_by);
+  }
+  return said->kelvin_per_count;
+}
+
+}  // namespace
+
+std::unique_ptr<hal::Camera> make_camera(
+    const CameraSettings& settings, const std::shared_ptr<const simulation::Machine>& machine) {
+  const simulation::SimulationContext context{
+      {settings.name, settings.stream.frame_rate, settings.radiometry.kelvin_per_count,
+       settings.faults, settings.radiometry.kelvin_offset},
+      machine};
+  auto camera =
+      std::visit([&context](const auto& back_end) { return make_camera(back_end, context); },
+                 settings.back_end);
+  camera->set_stamps(settings.stamps);
+  return camera;
+}
+
+Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& site) {
+  return simulation::Machine::make(site.site.simulation, hal::Clock::now())
+      .map([&](const auto& machine) {
+        std::vector<std::unique_ptr<hal::Camera>> cameras;
+        for (const auto& camera : site.site.cameras)
+          cameras.push_back(make_camera(camera, machine));
+        return cameras;
+      });
+}
+
+hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
+                                                 std::size_t index) {
+  const CameraSettings& settings = site.site.cameras[index];
+  auto format = camera.configure(stream_of(settings, site.rig_camera(index)));
+  if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
+  for (const ControlSettings& control : controls_of(site, index)) {
+    if (const auto done = camera.set(control.name, control.value); !done) {
+      return hal::fail(hal::Fault::Refused, done.error().message);
+    }
+  }
+  if (const auto usable = check_format(*format, settings, site.rig_camera(index)); !usable) {
+    return hal::fail(hal::Fault::WrongFormat, usable.error().message + camera.format_note());
+  }
+  const auto scale = scale_of_counts(camera, settings);
+  if (!scale) return hal::fail(hal::Fault::WrongFormat, scale.error().message);
+  format->kelvin_per_count = *scale;
+  format->kelvin_offset = settings.radiometry.kelvin_offset;
+  return *format;
+}
+
+Result<OpenedCameras> open_cameras(const Resolved& site) {
+  return make_cameras(site).map([&](std::vector<std::unique_ptr<hal::Camera>> cameras) {
+    OpenedCameras opened;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const auto format = open_camera(*cameras[i], site, i);
+      opened.absent[i] = !format;
+      opened.formats.push_back(format.value_or(expected_format(site, i)));
+    }
+    opened.cameras = std::move(cameras);
+    return opened;
+  });
+}
+
+void add_cameras(PipelinePlan& plan, OpenedCameras opened, const Resolved& site, Lines& lines) {
+  for (std::size_t i = 0; i < opened.cameras.size(); ++i) {
+    const CameraSettings& settings = site.site.cameras[i];
+    plan.triggers.push_back(
+        lines.trigger(settings.trigger, settings.trigger_source, *opened.cameras[i]));
+  }
+  plan.cameras = std::move(opened.cameras);
+  plan.absent = opened.absent;
+  plan.process_inputs = lines.process_inputs();
+}
+
+hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera,
+                            Pipeline& pipeline) {
+  const auto missing = [&](const hal::FaultReport& fault) {
+    pipeline.miss(index, fault.fault);
+    return hal::fail(fault.fault, "camera " + site.site.cameras[index].name + ": " + fault.detail);
+  };
+  const auto format = open_camera(camera, site, index);
+  if (!format) return missing(format.error());
+  const hal::StreamFormat& planned = pipeline.formats()[index];
+  if (format->format != planned.format || format->kelvin_per_count != planned.kelvin_per_count) {
+    std::vector<hal::StreamFormat> formats = pipeline.formats();
+    formats[index] = *format;
+    auto recompiled = rebuild(site, std::move(formats), index);
+    if (!recompiled) return missing({hal::Fault::WrongFormat, recompiled.error().message});
+    if (const auto taken = pipeline.take_over(std::move(*recompiled)); !taken) {
+      return missing({hal::Fault::Refused, taken.error().message});
+    }
+  }
+  if (const auto admitted = pipeline.admit(index, *format); !admitted) {
+    return missing({hal::Fault::Refused, admitted.error().message});
+  }
+  return {};
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/daemon/site/interfaces.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "app/daemon/site/published.h"
+#include "app/model/fleet/appliance_notice.h"
+#include "app/model/fleet/fleet.h"
+#include "app/ports/web/web_context.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// Parts that sinks are made with; each sink takes those that its make_sink() names.
+using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>,
+                             CommandPath, std::shared_ptr<hal::SharedThreads>,
+                             std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
+
+/// Null: the settings do not enable it.
+template <class Settings, class... Parts>
+std::unique_ptr<Sink> made(std::unique_ptr<Sink> (*make)(const Settings&, const Parts&...),
+                           const Settings& settings, const SinkParts& parts) {
+  constexpr bool kTakesCommands = (std::is_same_v<Parts, CommandPath> || ...);
+  static_assert(
+      !kTakesCommands || requires { commanders(settings); },
+      "an interface that takes commands needs commanders()");
+  return make(settings, std::get<Parts>(parts)...);
+}
+
+PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSource* alignment,
+                         Program program) {
+  return {.ball = plan.scene.ball,
+          .scene = plan.scene.proxy,
+          .recipes = measured_recipes(site, plan),
+          .alignment = alignment,
+          .state_folder = site.state_folder,
+          .program = std::move(program)};
+}
+
+/// Address of the appliance's page for other computers.
+PageAddress page_of(const SinkSettings& sinks) {
+  PageAddress page;
+  for_each_sink(sinks, [&page](const auto& settings) {
+    if constexpr (requires { page_address(settings); }) page = page_address(settings);
+  });
+  return page;
+}
+
+/// Null: there is nobody to receive from, or nobody to show it to.
+std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
+  bool is_filled = false, is_shown = false;
+  for_each_sink(sinks, [&](const auto& settings) {
+    if constexpr (requires { fills_fleet(settings); }) is_filled |= fills_fleet(settings);
+    if constexpr (requires { shows_fleet(settings); }) is_shown |= shows_fleet(settings);
+  });
+  return is_filled && is_shown ? std::make_shared<Fleet>() : nullptr;
+}
+
+}  // namespace
+
+std::string commanders_text(const SinkSettings& sinks) {
+  std::string text;
+  const auto add = [&text](const std::string& commanders) {
+    if (!commanders.empty()) text += (text.empty() ? "" : "; ") + commanders;
+  };
+  for_each_sink(sinks, [&add](const auto& settings) {
+    if constexpr (requires { commanders(settings); }) add(commanders(settings));
+  });
+  return "takes commands " + (text.empty() ? "from nobody" : text);
+}
+
+Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
+                       std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
+                       Program program) {
+  const SinkSettings& sinks = site.site.sinks;
+  ApplianceIdentity identity;
+  identity.version = version_of(program);
+  identity.page = page_of(sinks);
+  PageContext page = page_context(site, plan, alignment, std::move(program));
+  page.tables = [this] { return tables(); };
+  page.metrics = [this] { return metrics(); };
+  const SinkParts parts{site.names,
+                        published_views(site, plan),
+                        published_cameras(site),
+                        std::move(commands),
+                        std::move(background),
+                        make_fleet(sinks),
+                        std::move(identity),
+                        std::move(page)};
+  std::size_t next = 0;
+  for_each_sink(sinks, [&]<class Settings>(const Settings& settings) {
+    all_[next++] = made<Settings>(make_sink, settings, parts);
+  });
+}
+
+void Interfaces::start(Attempts& attempts, hal::TimePoint now) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (!all_[i]) continue;
+    const auto attempt = [this, i] {
+      return all_[i]->start().map([this, i] { started_ |= 1U << i; });
+    };
+    attempts.add(std::string(kInterfaceNames[i]), attempt, now);
+  }
+}
+
+void Interfaces::stop() {
+  for (Sink* sink : sinks()) sink->stop();
+}
+
+std::vector<Sink*> Interfaces::sinks() const {
+  std::vector<Sink*> sinks;
+  for (const auto& sink : all_) {
+    if (sink) sinks.push_back(sink.get());
+  }
+  return sinks;
+}
+
+std::vector<InterfaceTable> Interfaces::tables() const {
+  std::vector<InterfaceTable> all;
+  for (const Sink* sink : sinks()) std::ranges::move(sink->tables(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<InterfaceMetric> Interfaces::metrics() const {
+  std::vector<InterfaceMetric> all;
+  for (const Sink* sink : sinks()) std::ranges::move(sink->metrics(), std::back_inserter(all));
+  return all;
+}
+
+std::uint32_t Interfaces::faults() const {
+  std::uint32_t faults = 0;
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    const bool works = !all_[i] || ((started_ >> i & 1U) != 0 && all_[i]->works());
+    faults |= (works ? 0U : 1U) << i;
+  }
+  return faults;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "app/daemon/site/site_plan.h"
+#include "app/files/resolve.h"
+#include "app/model/sink/published.h"
+#include "app/model/status/measured_recipe.h"
+
+namespace orbwatch::app {
+
+/// The views of a site as they are offered to the outside, by place in its names. Reentrant.
+std::vector<PublishedView> published_views(const Resolved& site, const SitePlan& plan);
+
+/// Its cameras, by place in its names. Reentrant.
+std::vector<PublishedCamera> published_cameras(const Resolved& site);
+
+/// Its recipes, with the outlines and projections that they are measured by. Reentrant.
+std::vector<MeasuredRecipe> measured_recipes(const Resolved& site, const SitePlan& plan);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/daemon/site/site_check.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/daemon/site/view_memory.h"
+#include "app/pipeline/measurement/compiled_recipe.h"
+#include "hal/host.h"
+#include "hal/thread/scheduling.h"
+
+namespace orbwatch::app {
+
+namespace {
+
+bool meet(const ListeningPort& a, const ListeningPort& b) {
+  return a.interface != b.interface && a.port == b.port &&
+         (a.address == b.address || hal::is_unspecified(a.address) ||
+          hal::is_unspecified(b.address));
+}
+
+std::string text_of(const ListeningPort& port) {
+  return "[" + std::string(port.interface) + "] " + std::string(port.key);
+}
+
+}  // namespace
+
+std::vector<ListeningPort> listening_ports(const SinkSettings& sinks) {
+  std::vector<ListeningPort> ports;
+  for_each_sink(sinks, [&ports](const auto& settings) {
+    if constexpr (requires { listening_ports(settings); }) {
+      for (ListeningPort& port : listening_ports(settings)) {
+        if (port.port != 0) ports.push_back(std::move(port));
+      }
+    }
+  });
+  return ports;
+}
+
+Result<> check_keys(const Resolved& site, Dates dates) {
+  Result<> checked;
+  for_each_sink(site.site.sinks, [&](const auto& settings) {
+    if constexpr (requires { check_keys(settings, dates); }) {
+      if (checked) checked = check_keys(settings, dates);
+    }
+  });
+  return checked;
+}
+
+Result<> check_ports(const Resolved& site) {
+  const auto ports = listening_ports(site.site.sinks);
+  for (auto later = ports.begin(); later != ports.end(); ++later) {
+    const auto earlier = std::find_if(
+        ports.begin(), later, [&](const ListeningPort& other) { return meet(other, *later); });
+    if (earlier == later) continue;
+    return fail(text_of(*later) + " and " + text_of(*earlier) + " are both " +
+                std::to_string(later->port) + "; give each a port of its own");
+  }
+  return {};
+}
+
+Result<SitePlan> checked_plan(const Resolved& site, Dates dates) {
+  if (auto fits = check_view_memory(site); !fits) return tl::unexpected(fits.error());
+  auto plan = SitePlan::make(site, expected_formats(site));
+  if (!plan) return plan;
+  for (std::size_t i = 0; i < plan->recipes.size(); ++i) {
+    const auto checked = CompiledRecipe::check(plan->recipes[i], plan->scene);
+    if (!checked) return tl::unexpected(in_recipe(site, i, checked.error()));
+  }
+  return hal::check(site.site.threads)
+      .and_then([&] { return check_ports(site); })
+      .and_then([&] { return check_keys(site, dates); })
+      .map([&] { return std::move(*plan); });
+}
+
+Result<> check_site(const Resolved& site, Dates dates) {
+  return checked_plan(site, dates).map([](const SitePlan&) {});
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/daemon/site/site_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "tests/app/daemon/demo_site.h"
+
+namespace orbwatch::app {
+namespace {
+
+TEST(SiteCheck, WhatIsShippedCanRunAndTheReferenceMachine) {
+  for (const char* file : {"demo.toml", "usb-camera.toml", "gige-camera.toml",
+                           "../../tests/bench/reference/site.toml"}) {
+    const auto checked = resolve(kShippedFolder / file).and_then([](const Resolved& site) {
+      return check_site(site, Dates::Checked);
+    });
+    EXPECT_TRUE(checked) << checked.error().message;
+  }
+}
+
+/// What a change makes of the demonstration.
+template <class Change>
+std::string refusal(const Change& change) {
+  Resolved site = demo();
+  change(site);
+  const auto checked = check_site(site, Dates::Checked);
+  return checked ? "none" : checked.error().message;
+}
+
+TEST(SiteCheck, FindsRegionsOutsideOfTheirView) {
+  const std::string said = refusal([](Resolved& site) {
+    first(site).regions[0].points.clear();
+    first(site).regions[0].directions = {{60, 40}, {70, 40}, {60, 50}};
+  });
+  EXPECT_NE(said.find("demo-recipe.toml: region pool: "), std::string::npos) << said;
+  EXPECT_NE(said.find("no pixel"), std::string::npos) << said;
+}
+
+TEST(SiteCheck, FindsThresholdsThatNothingReaches) {
+  const auto hotter_than_the_scale = [](Resolved& site) {
+    first(site).regions[0].hot_spot_threshold = 9000;
+  };
+  EXPECT_THAT(refusal(hotter_than_the_scale),
+              testing::HasSubstr("region pool: hot_spot_threshold is 9000.0 degC; the camera's "
+                                 "counts end at "));
+  const auto above_full_scale = [](Resolved& site) {
+    site.site.cameras[kThermalCamera].radiometry.kelvin_per_count = 0;
+    for (RegionOfInterest& region : first(site).regions) region.alarms.clear();
+    first(site).regions[1].spatter_threshold.reset();
+    first(site).regions[0].plume_threshold.reset();
+    first(site).regions[0].hot_spot_threshold = 101;
+    first(site).regions[1].hot_spot_threshold = 99;
+  };
+  EXPECT_THAT(refusal(above_full_scale),
+              testing::HasSubstr("region pool: hot_spot_threshold is 101.0; it must be above 0 and "
+                                 "at most 100 percent"));
+  EXPECT_EQ(refusal([&](Resolved& site) {
+              above_full_scale(site);
+              first(site).regions[0].hot_spot_threshold = 99;
+            }),
+            "none");
+}
+
+TEST(SiteCheck, FindsModbusAndThePageOnOnePort) {
+  const auto on = [](int port, std::optional<int> https, const char* page, const char* plc) {
+    return refusal([=](Resolved& site) {
+      auto& web = std::get<WebSettings>(site.site.sinks);
+      auto& modbus = std::get<ModbusSettings>(site.site.sinks);
+      web.enabled = modbus.enabled = true;
+      web.port = port;
+      web.https_port = https;
+      web.address = page;
+      modbus.port = 1502;
+      modbus.address = plc;
+    });
+  };
+  EXPECT_EQ(on(8080, 8443, "0.0.0.0", "0.0.0.0"), "none");
+  EXPECT_NE(on(1502, {}, "127.0.0.1", "0.0.0.0").find("[web] port and [modbus] port are both 1502"),
+            std::string::npos);
+  EXPECT_NE(on(8080, 1502, "10.0.0.5", "::").find("[web] https_port"), std::string::npos);
+  EXPECT_EQ(on(1502, 8443, "127.0.0.1", "10.0.0.5"), "none") << "two networks";
+  EXPECT_EQ(on(8080, 1502, "10.0.0.5", "10.1.0.5"), "none");
+}
+
+TEST(ListeningPorts, AreThoseOfAllEnabledInterfaces) {
+  SinkSettings sinks;
+  auto& web = std::get<WebSettings>(sinks);
+  web.enabled = true;
+  web.address = "10.0.0.5";
+  std::string said;
+  for (const ListeningPort& port : listening_ports(sinks)) {
+    said += std::string(port.interface) + "." + std::string(port.key) + " " + port.address + ":" +
+            std::to_string(port.port) + "\n";
+  }
+  EXPECT_EQ(said,
+            "modbus.port 0.0.0.0:1502\n"
+            "web.port 10.0.0.5:8080\n"
+            "web.port 127.0.0.1:8080\n"
+            "web.https_port 10.0.0.5:8443\n");
+  std::get<ModbusSettings>(sinks).port = 0;
+  web.enabled = false;
+  EXPECT_TRUE(listening_ports(sinks).empty()) << "any free port";
+}
+
+TEST(SiteCheck, AnUnregisteredCameraDoesNotMeasure) {
+  Resolved site = demo();
+  site.rig.cameras[site.rig_cameras[kThermalCamera]].is_registered = false;
+  const auto measuring = check_site(site, Dates::Ignored);
+  ASSERT_FALSE(measuring);
+  EXPECT_THAT(measuring.error().message, testing::AllOf(testing::HasSubstr("is not registered"),
+                                                        testing::HasSubstr("orbwatch register")));
+}
+
+}  // namespace
+}  // namespace orbwatch::app
