@@ -101,7 +101,7 @@ MirrorRoomScene::MirrorRoomScene(const MirrorRoomSettings& settings) : random_(m
   }
   for (int i = static_cast<int>(in(0, 5)); i > 0; --i) {
     const Vec3 foot = away_from_ball();
-    const Vec3 axis = normalized({in(-0.2, 0.2), in(-0.2, 0.2), 1});
+    const Vec3 axis = normalized(Vec3{in(-0.2, 0.2), in(-0.2, 0.2), 1});
     if (norm(foot - axis * dot(foot, axis)) < 2.5) continue;
     tubes_.push_back({foot, axis, in(0.1, 1), in(0.2, 1) * size, a_paint(size / 4)});
   }
