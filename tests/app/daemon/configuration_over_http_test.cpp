@@ -283,8 +283,8 @@ TEST_F(ConfigurationOverHttp, IsNotTriedOutWithoutAServicesFolder) {
   Subprocess daemon = start(config);
   manager.await("READY=1");
   EXPECT_EQ(ask("check", of_recipe(other_recipe())).status, 200);
-  for (const char* what : {"try", "confirm", "revert"}) {
-    const Answer answer = ask(what, of_recipe(other_recipe()));
+  for (const std::string what : {"try", "confirm", "revert"}) {
+    const Answer answer = ask(what, what == "try" ? of_recipe(other_recipe()) : json::object());
     EXPECT_EQ(answer.status, 409) << what;
     EXPECT_THAT(answer.body, HasSubstr("without STATE_DIRECTORY")) << what;
   }

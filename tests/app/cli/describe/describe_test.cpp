@@ -175,8 +175,8 @@ TEST_P(DescribeMistake, IsOneLineAndNoFile) { expect_refused("describe", GetPara
 INSTANTIATE_TEST_SUITE_P(
     All, DescribeMistake,
     testing::Values(
-        Mistake{"Nothing", {}, {"config, rig, recipe, registers, view, camera"}},
-        Mistake{"UnknownSubject", {"ball"}, {"config, rig, recipe, registers, view, camera"}},
+        Mistake{"Nothing", {}, {"config, rig, recipe, registers, http, view, camera"}},
+        Mistake{"UnknownSubject", {"ball"}, {"config, rig, recipe, registers, http, view, camera"}},
         Mistake{"TooMuchForAManual", {"config", "view"}, {"unexpected", "view"}},
         Mistake{"ViewWithoutAnything", {"view"}, {"--ball", "--rig"}},
         Mistake{"ViewWithoutPictureSize",

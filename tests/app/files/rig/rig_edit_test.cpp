@@ -12,7 +12,7 @@
 namespace orbwatch::app {
 namespace {
 
-const std::string kRig = R"(# our machine
+const std::string kCommentedRig = R"(# our machine
 [ball]
 centre = [120, 60, 430]          # by tape
 radius = 50
@@ -45,7 +45,7 @@ rotation = [90, 0, 0]
 const optics::Mat3 kTurned = optics::rotation({10, 20, 30});
 
 Result<std::string> aligned(const CameraAlignment& camera) {
-  return aligned_rig(kRig, "rig.toml", ".", {std::nullopt, {camera}});
+  return aligned_rig(kCommentedRig, "rig.toml", ".", {std::nullopt, {camera}});
 }
 
 optics::RigCamera camera(const std::string& text, std::size_t n) {
@@ -93,7 +93,7 @@ TEST(RigEdit, PutsAnOutlineInThePlaceOfAPose) {
 }
 
 TEST(RigEdit, RegistersACamera) {
-  std::string unregistered = kRig;
+  std::string unregistered = kCommentedRig;
   unregistered.replace(unregistered.find("rotation = [90, 0, 0]"), 21, "registered = false");
   EXPECT_FALSE(camera(unregistered, 1).is_registered);
   const optics::Outline limb{{400, 300}, 260.25, 259.5, 12};
@@ -110,7 +110,7 @@ TEST(RigEdit, RegistersACamera) {
 }
 
 TEST(RigEdit, MovesTheBall) {
-  const auto text = aligned_rig(kRig, "rig.toml", ".", {optics::Vec3{121.5, 60, 430}, {}});
+  const auto text = aligned_rig(kCommentedRig, "rig.toml", ".", {optics::Vec3{121.5, 60, 430}, {}});
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_NE(text->find("centre = [121.5, 60, 430]          # by tape"), std::string::npos);
 }
@@ -150,7 +150,7 @@ cy = 299.5
 TEST(RigEdit, WritesTheFileItReadAndOnlyThen) {
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "rig.toml";
-  std::ofstream(file) << kRig;
+  std::ofstream(file) << kCommentedRig;
   EXPECT_FALSE(write_aligned_rig(file, {std::nullopt, {{.camera = "C"}}}, file));
   const RigAlignment turned{std::nullopt, {{.camera = "B", .registration = kTurned}}};
   const auto written = write_aligned_rig(file, turned, file);
