@@ -9,7 +9,8 @@ Answered<TablesAnswer> InterfaceRoutes::tables() const {
   if (!tables_) return refuse(404, "there is no other interface");
   TablesAnswer all;
   for (const InterfaceTable& table : tables_()) {
-    auto& rows = all[table.interface][table.name];
+    if (all.empty() || all.back().first != table.interface) all.push_back({table.interface, {}});
+    auto& rows = all.back().second.emplace_back(table.name, std::vector<Json>()).second;
     for (const auto& cells : table.rows) {
       Json row = Json::object();
       for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,8 +24,9 @@ void visit(Visitor& v, AboutAnswer& about) {
 }
 
 /// Rows by the name of their table, by interface: {"modbus": {"registers": [{"name": ...}, ...]}}.
-/// A row has a text, a number, null or a flag for each column.
-using TablesAnswer = std::map<std::string, std::map<std::string, std::vector<Json>>>;
+/// A row has a text, a number, null or a flag for each column. In the order of the interfaces.
+using InterfaceTables = std::vector<std::pair<std::string, std::vector<Json>>>;
+using TablesAnswer = std::vector<std::pair<std::string, InterfaceTables>>;
 
 /// Serves the versions of the program, and the tables of the other interfaces. Thread-safe.
 class InterfaceRoutes {
