@@ -13,6 +13,7 @@ namespace orbwatch::app::cli {
 /// Reason why a command does not do what was asked, with its exit status. Any other error is a
 /// failure.
 struct CliError {
+  // NOLINTNEXTLINE(google-explicit-constructor): an error of another room
   CliError(Error error) : message(std::move(error.message)) {}
   CliError(std::string text, ExitStatus ends_with) : message(std::move(text)), status(ends_with) {}
 

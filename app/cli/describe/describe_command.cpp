@@ -9,8 +9,7 @@
 #include "app/files/recipe/recipe_file.h"
 #include "app/files/rig/rig_file.h"
 #include "app/ports/modbus/map/handbook.h"
-#include "app/ports/web/api/http_manual.h"
-#include "app/ports/web/routes.h"
+#include "app/ports/web/described_routes.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -34,7 +33,6 @@ CliResult<std::string> describe_registers(const Arguments& arguments) {
                      [&](const auto&) { return csv ? registers_csv() : registers_markdown(); });
 }
 
-std::string http() { return web::http_manual(web::routes_of({})); }
 std::string man();
 std::string completion();
 
@@ -45,7 +43,7 @@ constexpr std::array kSubjects{
     Subcommand{"recipe", "manual of a recipe's file: what is measured",
                describe_manual<recipe_manual>},
     Subcommand{"registers", "manual of the Modbus registers", describe_registers},
-    Subcommand{"http", "manual of the HTTP interface", describe_manual<http>},
+    Subcommand{"http", "manual of the HTTP interface", describe_manual<web::manual_of_all_routes>},
     Subcommand{"view", "what cameras resolve in a view", describe_view},
     Subcommand{"camera", "what follows from a rig for one camera; its calibration",
                describe_camera},

@@ -6,9 +6,11 @@
 
 #include "app/ports/web/access/access_desk.h"
 #include "app/ports/web/align/align_routes.h"
+#include "app/ports/web/api/http_manual.h"
 #include "app/ports/web/api/typed_route.h"
 #include "app/ports/web/commands/command_desk.h"
 #include "app/ports/web/configuration/configuration_desk.h"
+#include "app/ports/web/described_routes.h"
 #include "app/ports/web/fleet/fleet_routes.h"
 #include "app/ports/web/history/history_routes.h"
 #include "app/ports/web/interfaces/interface_routes.h"
@@ -229,5 +231,7 @@ std::vector<Route> routes_of(const RouteOwners& owners) {
   }
   return all;
 }
+
+std::string manual_of_all_routes() { return http_manual(routes_of({})); }
 
 }  // namespace orbwatch::app::web

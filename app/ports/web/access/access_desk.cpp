@@ -154,7 +154,7 @@ Answered<TokenAnswer> AccessDesk::create_token(Change<TokenBody>& change) {
     return {};
   });
   if (changed) change.after = with_role(name, role);
-  return changed.map([&](Done) { return TokenAnswer{token}; });
+  return changed.map([&](const Done&) { return TokenAnswer{token}; });
 }
 
 Answered<Done> AccessDesk::revoke_token(Change<TokenNameBody>& change) {

@@ -52,7 +52,8 @@ class SchemaWriter {
       Json json = usual.take();
       if (json.contains(std::string(name))) {
         Json& value = json.at(std::string(name));
-        if (value.is_number() || (value.is_string() && value != "")) schema["default"] = value;
+        const bool is_text = value.is_string() && !value.get_ref<const std::string&>().empty();
+        if (value.is_number() || is_text) schema["default"] = value;
       }
     }
   }
