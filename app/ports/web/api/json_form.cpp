@@ -178,11 +178,13 @@ Result<> check_form(const Json& value, const Json& schema, const std::string& na
 }
 
 Result<Json> parse_body(std::string_view body, const Json& schema) {
-  const std::string form = "; the body must be " + form_text(schema);
+  const auto refused = [&schema](const std::string& what) {
+    return fail(what + "; the body must be " + form_text(schema));
+  };
   Json sent = Json::parse(body.empty() ? "{}" : body, nullptr, false);
-  if (!sent.is_object()) return fail("the body is not a JSON object" + form);
+  if (!sent.is_object()) return refused("the body is not a JSON object");
   const auto checked = check_form(sent, schema, "");
-  if (!checked) return fail(checked.error().message + form);
+  if (!checked) return refused(checked.error().message);
   return sent;
 }
 

@@ -195,14 +195,6 @@ Json schema_of() {
   return schema_for<sent>(std::type_identity<T>{});
 }
 
-/// Schema of the arguments of a query, of which none can be null.
-template <class Record>
-Json query_schema_of() {
-  Json schema = schema_of<Record, Sent::ByClient>();
-  for (Json& argument : schema["properties"]) argument.erase("nullable");
-  return schema;
-}
-
 /// Record in the body of a request. Errors: those of parse_body() and record_of().
 template <class Body>
 Result<Body> parse_record(std::string_view body) {

@@ -26,9 +26,8 @@ Json converted(const std::string& text, const Json& schema) {
 
 /// Quotes an argument, which is no secret because it stands in the address.
 tl::unexpected<Error> refused_argument(const std::string& name, const std::string& text,
-                                       Json schema) {
+                                       const Json& schema) {
   constexpr std::size_t kMostQuoted = 100;
-  schema.erase("nullable");  // no argument means null
   return fail(name + " is " + text.substr(0, kMostQuoted) + "; it must be " + form_text(schema));
 }
 

@@ -79,7 +79,7 @@ Route get(std::string_view path, Role role, Owner* owner, std::string_view descr
   using Arguments = typename Types::Arguments;
   Route route{"GET", std::string(path), role, std::string(description), std::string(type)};
   if constexpr (!std::is_same_v<Arguments, Nothing>) {
-    route.query = query_schema_of<Arguments>;
+    route.query = schema_of<Arguments, Sent::ByClient>;
   }
   if constexpr (kIsAnswered<typename Types::Answer>) {
     route.answer = schema_of<typename Types::Answer::value_type, Sent::ByUs>;
@@ -106,7 +106,6 @@ template <class Handler>
 struct ChangeHandlerOf;
 template <class Owner_, class Answer_, class Body_>
 struct ChangeHandlerOf<Answered<Answer_> (Owner_::*)(Change<Body_>&)> {
-  using Owner = Owner_;
   using Answer = Answer_;
   using Body = Body_;
 };

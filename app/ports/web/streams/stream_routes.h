@@ -65,7 +65,7 @@ class StreamRoutes {
   ServerCounts& server_counts_;
   StreamCounts counts_;
   std::vector<std::unique_ptr<ViewEncoder>> views_;  ///< encoders by View::index
-  /// By view: the next picture has readers; used on the pipeline's thread only.
+  /// Flags by view: the next picture has readers; used on the pipeline's thread only.
   std::vector<bool> asked_;
 };
 
