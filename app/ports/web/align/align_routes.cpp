@@ -48,14 +48,8 @@ void AlignRoutes::request(const CameraQuery& query, AlignmentPicture picture,
   }
   picture.camera = *camera;
   const auto on_picture = [exchange](Result<std::string> jpeg) {
-    if (!jpeg) {
-      exchange->answer(error_response(409, jpeg.error().message));
-      return;
-    }
-    Response response;
-    response.type = kJpeg;
-    response.body = std::make_shared<const std::string>(std::move(*jpeg));
-    exchange->answer(std::move(response));
+    exchange->answer(jpeg ? body_response(kJpeg, std::move(*jpeg))
+                          : error_response(409, jpeg.error().message));
   };
   const auto is_wanted = [exchange] { return !exchange->is_answered(); };
   const auto requested = source_ ? source_->request(picture, on_picture, is_wanted)

@@ -10,15 +10,6 @@
 
 namespace orbwatch::app::web {
 
-/// Answer to a command.
-struct CommandAnswer {
-  CommandResult result = CommandResult::Done;
-};
-template <class Visitor>
-void visit(Visitor& v, CommandAnswer& answer) {
-  v.required("result", answer.result, "0: done; else the reason of the refusal");
-}
-
 /// Executes commands and records them in the audit. Thread rule: as CommandRunner.
 class CommandDesk {
  public:

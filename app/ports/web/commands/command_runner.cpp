@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/commands/command_runner.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "app/ports/web/api/record.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -65,9 +66,8 @@ void CommandRunner::carry_out_all() {
 
 void CommandRunner::answer(Exchange& exchange, CommandResult result) {
   ++(result == CommandResult::Done ? done_ : refused_);
-  const nlohmann::ordered_json answer{{"result", static_cast<int>(result)},
-                                      {"result_text", operator_text(result)}};
-  exchange.answer(json_response(answer.dump(), http_status(result)));
+  CommandAnswer answered{result};
+  exchange.answer(json_response(json_text(json_of(answered)), http_status(result)));
 }
 
 }  // namespace orbwatch::app::web

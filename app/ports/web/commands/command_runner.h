@@ -14,6 +14,15 @@
 
 namespace orbwatch::app::web {
 
+/// Answer to a command.
+struct CommandAnswer {
+  CommandResult result = CommandResult::Done;
+};
+template <class Visitor>
+void visit(Visitor& v, CommandAnswer& answer) {
+  v.required("result", answer.result, "0: done; else the reason of the refusal");
+}
+
 /// Executes commands one after the other on a separate thread, because it waits for the disk, and
 /// answers their requests. A command whose request was answered by its deadline is not executed;
 /// once its handler has begun, its result is the answer, however late.

@@ -19,10 +19,7 @@ Response FleetRoutes::picture(const ThumbnailQuery& query) const {
                           "no picture of this appliance; appliance must be an id that "
                           "/api/v1/appliances lists with pictures");
   }
-  Response response;
-  response.type = kJpeg;
-  response.body = std::move(picture);
-  return response;
+  return body_response(kJpeg, std::move(picture));
 }
 
 Answered<ForgottenAnswer> FleetRoutes::forget(Change<Nothing>& change) const {

@@ -31,11 +31,20 @@ const std::string* Request::header(std::string_view name) const {
   });
 }
 
-Response json_response(std::string text, int status) {
+Response body_response(std::string_view type, Bytes body, int status) {
   Response response;
   response.status = status;
-  response.body = std::make_shared<const std::string>(std::move(text) + "\n");
+  response.type = type;
+  response.body = std::move(body);
   return response;
+}
+
+Response body_response(std::string_view type, std::string body, int status) {
+  return body_response(type, std::make_shared<const std::string>(std::move(body)), status);
+}
+
+Response json_response(std::string text, int status) {
+  return body_response(kJson, std::move(text) + "\n", status);
 }
 
 Response error_response(int status, const std::string& what) {

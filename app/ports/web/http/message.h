@@ -70,6 +70,8 @@ struct Response {
   std::function<bool()> may_go_on;
 };
 
+Response body_response(std::string_view type, Bytes body, int status = 200);
+Response body_response(std::string_view type, std::string body, int status = 200);
 Response json_response(std::string text, int status = 200);
 /// Response with the body {"error": what}.
 Response error_response(int status, const std::string& what);

@@ -74,13 +74,10 @@ void LookAround::compute() {
 }
 
 void LookAround::answer(const ExchangePtr& exchange, const Bytes& mesh, const std::string& tag) {
-  Response response;
-  response.type = kType;
-  response.headers.emplace_back("ETag", tag);
   const std::string* has = exchange->request().header("If-None-Match");
   const bool is_known = has && *has == tag;
-  response.status = is_known ? 304 : 200;
-  response.body = is_known ? std::make_shared<const std::string>() : mesh;
+  Response response = is_known ? body_response(kType, "", 304) : body_response(kType, mesh);
+  response.headers.emplace_back("ETag", tag);
   exchange->answer(std::move(response));
 }
 

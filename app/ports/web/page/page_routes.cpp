@@ -17,10 +17,7 @@ std::vector<Route> page_routes() {
     route.is_page = true;
     route.serve = [type = route.type, content = std::make_shared<const std::string>(file.content)](
                       const ExchangePtr& exchange) {
-      Response response;
-      response.type = type;
-      response.body = content;
-      exchange->answer(std::move(response));
+      exchange->answer(body_response(type, content));
     };
     routes.push_back(std::move(route));
   }

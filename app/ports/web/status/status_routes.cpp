@@ -58,24 +58,17 @@ Response StatusRoutes::health() const {
   const Newest newest = this->newest();
   const bool is_stale = hal::Clock::now() - newest.received > timeout_;
   const Condition condition = condition_of(static_cast<const SystemStatus&>(newest.status));
-  Response response;
-  response.status = is_stale ? 503 : 200;
-  response.type = kText;
-  response.body = std::make_shared<const std::string>(
-      (is_stale ? "the pipeline does not report" : condition.text) + "\n");
-  return response;
+  return body_response(kText, (is_stale ? "the pipeline does not report" : condition.text) + "\n",
+                       is_stale ? 503 : 200);
 }
 
 Response StatusRoutes::metrics() const {
   const Newest newest = this->newest();
   const auto interfaces =
       counters_.interfaces ? counters_.interfaces() : std::vector<InterfaceMetric>();
-  Response response;
-  response.type = kMetrics;
-  response.body = std::make_shared<const std::string>(
-      metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, counters_.own(),
-                   interfaces, version_));
-  return response;
+  return body_response(kMetrics,
+                       metrics_text({newest.status, names_, hal::Clock::now(), newest.utc},
+                                    counters_.own(), interfaces, version_));
 }
 
 }  // namespace orbwatch::app::web

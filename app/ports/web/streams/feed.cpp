@@ -47,12 +47,7 @@ void Feed::publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& 
     count_wanted();
     bytes = newest_.bytes;
   }
-  for (const ExchangePtr& exchange : waiting) {
-    Response response;
-    response.type = kJpeg;
-    response.body = bytes;
-    exchange->answer(std::move(response));
-  }
+  for (const ExchangePtr& exchange : waiting) exchange->answer(body_response(kJpeg, bytes));
   for (const Wake& wake : readers) (*wake)();
 }
 
