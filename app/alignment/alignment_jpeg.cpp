@@ -59,8 +59,9 @@ Result<std::string> shown(const Picture& picture, const optics::BallProjection& 
   }
   const bool is_grey = picture.format == PixelFormat::Grey;
   return optics::ViewProjection::make(*view, ball).and_then([&](optics::ViewProjection projection) {
-    const StillPlan plan{std::move(projection), is_grey ? PixelFormat::Grey : PixelFormat::Rgb};
-    const StillSource source{picture, ball};
+    const pipeline::StillPlan plan{std::move(projection),
+                                   is_grey ? PixelFormat::Grey : PixelFormat::Rgb};
+    const pipeline::StillSource source{picture, ball};
     return encoded(render_once(plan, {&source, 1}).picture);
   });
 }

@@ -41,17 +41,17 @@ struct Calibrations {
 
 /// Folder of the calibrations and checksum of the rig, without the entries.
 Result<Calibrations> locate(const std::filesystem::path& config) {
-  const auto site = read_site(config);
+  const auto site = files::read_site(config);
   if (!site) return tl::unexpected(site.error());
   const auto folder = state_folder(site->state_folder, config);
   if (!folder) return tl::unexpected(folder.error());
-  return rig_checksum(site->rig.path).map([&](std::uint32_t rig) {
-    return Calibrations{calibration_file(*folder), rig, {}};
+  return files::rig_checksum(site->rig.path).map([&](std::uint32_t rig) {
+    return Calibrations{files::calibration_file(*folder), rig, {}};
   });
 }
 
 Result<> load(Calibrations& calibrations) {
-  TextFiles files;
+  files::TextFiles files;
   auto entries = load_calibrations(calibrations.file, files);
   if (!entries) return tl::unexpected(entries.error());
   calibrations.entries = std::move(*entries);
@@ -60,7 +60,7 @@ Result<> load(Calibrations& calibrations) {
 
 /// State of an alignment in words: used now or not.
 std::string state_of(const CalibrationEntry& entry, const Calibrations& all) {
-  const auto current = in_force(all.entries, all.rig);
+  const auto current = files::in_force(all.entries, all.rig);
   if (std::ranges::count(current, entry.number, &CalibrationEntry::number) > 0) return "in force";
   return entry.rig == all.rig ? "earlier" : "for another rig file";
 }
@@ -95,8 +95,8 @@ std::string history_json(const Calibrations& all) {
 
 Result<std::string> accepted(Calibrations& all, CalibrationEntry entry) {
   const std::string camera = camera_of(entry).camera;
-  accept(all.entries, std::move(entry));
-  const auto saved = save_calibrations(all.file, all.entries);
+  files::accept(all.entries, std::move(entry));
+  const auto saved = files::save_calibrations(all.file, all.entries);
   if (!saved) return tl::unexpected(saved.error());
   return "alignment " + std::to_string(all.entries.back().number) + " of " + camera +
          " counts from the next start or restart of orbwatchd on\n";
@@ -168,7 +168,7 @@ CliResult<std::string> calibration_command(const Arguments& arguments) {
                    {"json", 0, "", "history for programs", flag_option(json)}},
        .takes_words = true,
        .notes = kCalibrationNotes},
-      [&](const auto& words) { return run(site_file(config), json, words); });
+      [&](const auto& words) { return run(files::site_file(config), json, words); });
 }
 
 }  // namespace orbwatch::app::cli

@@ -57,7 +57,7 @@ CliResult<std::string> make_keys(KeysOptions& o, const std::vector<std::string>&
   if (words.size() != 1 || words.front().empty()) {
     return usage_error("say which FOLDER to make keys in, and one only");
   }
-  if (const auto checked = check_topic_path(o.prefix, "prefix"); !checked) {
+  if (const auto checked = dds::check_topic_path(o.prefix, "prefix"); !checked) {
     return tl::unexpected(checked.error());
   }
   o.request.folder = words.front();

@@ -113,9 +113,9 @@ Result<std::string> first_password_line(const std::filesystem::path& folder) {
 }
 
 Result<std::string> show(const PasswordOptions& o) {
-  const auto site = read_site(site_file(o.config));
+  const auto site = files::read_site(files::site_file(o.config));
   if (!site) return tl::unexpected(site.error());
-  const auto folder = state_folder(site->state_folder, site_file(o.config));
+  const auto folder = state_folder(site->state_folder, files::site_file(o.config));
   if (!folder) return tl::unexpected(folder.error());
   const auto certificate = certificate_line(std::get<WebSettings>(site->sinks), *folder);
   if (!certificate) return certificate;
@@ -125,9 +125,9 @@ Result<std::string> show(const PasswordOptions& o) {
 
 Result<std::string> set_password(const PasswordOptions& o, const std::string& name) {
   if (auto named = web::check_name(name); !named) return tl::unexpected(named.error());
-  const auto site = read_site(site_file(o.config));
+  const auto site = files::read_site(files::site_file(o.config));
   if (!site) return tl::unexpected(site.error());
-  const auto folder = state_folder(site->state_folder, site_file(o.config));
+  const auto folder = state_folder(site->state_folder, files::site_file(o.config));
   if (!folder) return tl::unexpected(folder.error());
   const auto password = read_password(name);
   if (!password) return password;

@@ -41,7 +41,7 @@ struct ProjectOptions {
   bool match = true;
   bool transparent = false;
   remap::Interpolation interpolation = remap::Interpolation::Area;
-  double sharpness = kSharpness;
+  double sharpness = pipeline::kSharpness;
 };
 
 std::vector<Option> declare(ProjectOptions& o) {
@@ -62,11 +62,12 @@ std::vector<Option> declare(ProjectOptions& o) {
       {"interpolation", 0, "area|bilinear|nearest", "between pixels (default area)",
        word_option("interpolation", remap::kInterpolations, o.interpolation)},
       {"sharpness", 0, "S",
-       "of 8 bit colour, " + kSharpnesses.text() + " (default 0.8); 0: pixels as they are",
+       "of 8 bit colour, " + pipeline::kSharpnesses.text() +
+           " (default 0.8); 0: pixels as they are",
        [&o](const std::string& value) {
          return parse_number("sharpness", value).and_then([&o](double sharpness) -> Result<> {
-           if (!kSharpnesses.contains(sharpness)) {
-             return fail("--sharpness must be " + kSharpnesses.text());
+           if (!pipeline::kSharpnesses.contains(sharpness)) {
+             return fail("--sharpness must be " + pipeline::kSharpnesses.text());
            }
            o.sharpness = sharpness;
            return {};
@@ -151,15 +152,16 @@ void report(const std::vector<remap::PhotometricMatch>& matches,
 }
 
 /// The cameras' pictures merged by resolution, as orbwatchd does it.
-StillView merged(const ProjectOptions& o, const optics::ViewProjection& projection,
-                 const std::vector<ChosenCamera>& cameras,
-                 const std::vector<hal::DecodedPicture>& pictures) {
-  std::vector<StillSource> sources;
+pipeline::StillView merged(const ProjectOptions& o, const optics::ViewProjection& projection,
+                           const std::vector<ChosenCamera>& cameras,
+                           const std::vector<hal::DecodedPicture>& pictures) {
+  std::vector<pipeline::StillSource> sources;
   for (std::size_t n = 0; n < cameras.size(); ++n) {
     sources.push_back({pictures[n].picture, cameras[n].ball, o.sharpness});
   }
   const PixelFormat format = pictures.front().picture.format;
-  return render_once({projection, format, Combine::Sharpest, o.interpolation, o.match}, sources);
+  return render_once({projection, format, pipeline::Combine::Sharpest, o.interpolation, o.match},
+                     sources);
 }
 
 CliResult<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
@@ -167,7 +169,7 @@ CliResult<> write_camera_info(const ProjectOptions& o, const optics::ViewProject
   const auto intrinsics = view.intrinsics();
   if (!intrinsics) return usage_error("--camera-info: only a perspective view has one");
   const auto written =
-      write_calibration(o.camera_info, *intrinsics, "view", CalibrationFormat::Ros);
+      write_calibration(o.camera_info, *intrinsics, "view", files::CalibrationFormat::Ros);
   if (!written) return tl::unexpected(written.error());
   return {};
 }
@@ -190,7 +192,7 @@ CliResult<std::string> project(const ProjectOptions& o, const std::vector<std::s
   }
 
   progress.begin("making the view");
-  StillView still = merged(o, *view, *cameras, *pictures);
+  pipeline::StillView still = merged(o, *view, *cameras, *pictures);
   progress.erase();
   report(still.matches, *cameras);
   if (auto written = write_camera_info(o, *view); !written) {

@@ -22,7 +22,7 @@ constexpr milliseconds kTablePeriod{1000};
 struct StateOptions {
   int domain = 0;
   std::string prefix = "orbwatch";
-  std::optional<SecuritySettings> security;
+  std::optional<dds::SecuritySettings> security;
   milliseconds timeout{5000};
   bool json = false;
   bool follow = false;
@@ -62,7 +62,7 @@ Result<> print_states(StateReader& reader, const StateOptions& o,
       std::cerr << "orbwatch: " << refusal << '\n';
     }
     if (hal::Clock::now() - received >= o.timeout) {
-      return fail("DDS: nothing on " + process_state_topic(o.prefix) +
+      return fail("DDS: nothing on " + dds::process_state_topic(o.prefix) +
                   "; does orbwatchd run in this domain?");
     }
   }

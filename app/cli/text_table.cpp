@@ -18,7 +18,7 @@ using Row = std::vector<std::string>;
 
 std::string title(std::string name) {
   std::ranges::replace(name, '_', ' ');
-  return one_line(name);
+  return files::one_line(name);
 }
 
 bool is_content(const std::string& cell) { return !cell.empty() && cell != kNoValue; }
@@ -55,7 +55,7 @@ std::vector<Row> rows_of(const std::vector<Fields>& records) {
     bool has_content = rows.empty();
     for (const Fields& record : records) {
       const auto found = std::ranges::find(record, name, &Fields::value_type::first);
-      row.push_back(found == record.end() ? kNoValue : one_line(found->second));
+      row.push_back(found == record.end() ? kNoValue : files::one_line(found->second));
       has_content = has_content || is_content(row.back());
     }
     if (has_content) rows.push_back(std::move(row));
@@ -83,7 +83,7 @@ std::string fixed_text(double value, int digits) {
 std::string field_lines(const Fields& fields) {
   std::vector<Row> rows;
   for (const auto& [name, cell] : fields) {
-    if (!cell.empty()) rows.push_back({title(name), one_line(cell)});
+    if (!cell.empty()) rows.push_back({title(name), files::one_line(cell)});
   }
   return aligned(rows, "");
 }

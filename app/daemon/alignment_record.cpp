@@ -9,7 +9,7 @@
 #include "app/model/status/utc_text.h"
 #include "app/state/private_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 CalibrationEntry rig_files(const std::string& camera) {
@@ -21,17 +21,17 @@ CalibrationEntry rig_files(const std::string& camera) {
 
 }  // namespace
 
-AlignmentRecord::AlignmentRecord(const Resolved& site)
-    : site_(site), file_(calibration_file(site.state_folder)) {}
+AlignmentRecord::AlignmentRecord(const files::Resolved& site)
+    : site_(site), file_(files::calibration_file(site.state_folder)) {}
 
 /// Keeps a damaged file aside; then the alignments that run.
 Result<std::vector<CalibrationEntry>> AlignmentRecord::load_or_mend() {
-  TextFiles files;
+  files::TextFiles files;
   const auto entries = load_calibrations(file_, files);
   if (entries) return entries;
-  return keep_damaged(file_).and_then([&](const std::filesystem::path& kept) {
+  return files::keep_damaged(file_).and_then([&](const std::filesystem::path& kept) {
     log_line(LogLevel::Warning, entries.error().message + "; it is kept as " + kept.string());
-    TextFiles running(site_.calibration);
+    files::TextFiles running(site_.calibration);
     return load_calibrations(file_, running);
   });
 }
@@ -42,15 +42,15 @@ Result<int> AlignmentRecord::add(CalibrationEntry entry) {
   const auto add_to_file = [&]() -> Result<> {
     auto entries = load_or_mend();
     if (!entries) return tl::unexpected(entries.error());
-    accept(*entries, std::move(entry));
+    files::accept(*entries, std::move(entry));
     number = entries->back().number;
-    return save_calibrations(file_, *entries);
+    return files::save_calibrations(file_, *entries);
   };
   return with_lock(file_, add_to_file).map([&] { return number; });
 }
 
 Result<std::optional<CalibrationEntry>> AlignmentRecord::before(const std::string& camera) const {
-  TextFiles files;
+  files::TextFiles files;
   auto entries = load_calibrations(file_, files);
   if (!entries) return tl::unexpected(entries.error());
   std::erase_if(*entries, [&](const CalibrationEntry& entry) {
@@ -66,7 +66,7 @@ Result<std::optional<CalibrationEntry>> AlignmentRecord::before(const std::strin
 }
 
 bool AlignmentRecord::is_young(const std::string& camera, std::chrono::minutes age) const {
-  TextFiles files;
+  files::TextFiles files;
   const auto entries = load_calibrations(file_, files);
   const auto oldest = utc_text(std::chrono::system_clock::now() - age);
   return entries && std::ranges::any_of(*entries, [&](const CalibrationEntry& entry) {
@@ -75,4 +75,4 @@ bool AlignmentRecord::is_young(const std::string& camera, std::chrono::minutes a
          });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

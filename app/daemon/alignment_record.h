@@ -11,13 +11,13 @@
 #include "app/model/alignment/accepted_alignments.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// The file of a running site's accepted alignments. Thread rule: one caller at a time.
 class AlignmentRecord : public AcceptedAlignments {
  public:
   /// `site` outlives it.
-  explicit AlignmentRecord(const Resolved& site);
+  explicit AlignmentRecord(const files::Resolved& site);
 
   /// A damaged file is kept aside and written anew with the alignments that run. Waits for other
   /// programs that change the file. Error: as load_calibrations(), keep_damaged(),
@@ -32,8 +32,8 @@ class AlignmentRecord : public AcceptedAlignments {
  private:
   Result<std::vector<CalibrationEntry>> load_or_mend();
 
-  const Resolved& site_;
+  const files::Resolved& site_;
   const std::filesystem::path file_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

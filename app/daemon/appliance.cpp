@@ -14,11 +14,11 @@
 #include "hal/thread/scheduling.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Reads the board's health and whether commands are recorded.
-std::function<Health()> health_of(const Configuration& configuration,
+std::function<Health()> health_of(const files::Configuration& configuration,
                                   std::shared_ptr<const CommandRecord> record) {
   HealthSources sources;
   const auto& snapshot = std::get<SnapshotSettings>(configuration.sinks);
@@ -31,17 +31,17 @@ std::function<Health()> health_of(const Configuration& configuration,
 }
 
 /// The part of a site that alignment and watch use.
-AlignedSite aligned_site(const Resolved& site) {
+AlignedSite aligned_site(const files::Resolved& site) {
   AlignedSite aligned{{}, site.rig, site.alignments, site.site.place};
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    const CameraSettings& camera = site.site.cameras[i];
+    const files::CameraSettings& camera = site.site.cameras[i];
     aligned.cameras.push_back({camera.name, site.rig_cameras[i], camera.watch});
   }
   return aligned;
 }
 
 /// The lines as configured; simulated ones are connected as the machine's settings say.
-std::shared_ptr<Lines> open_lines(const Configuration& site) {
+std::shared_ptr<Lines> open_lines(const files::Configuration& site) {
   const std::vector<LineSettings> settings{site.lines.begin(), site.lines.end()};
   return std::make_shared<Lines>(settings, [machine = site.simulation](const std::string& line) {
     return simulation::is_connected(machine, line);
@@ -50,7 +50,7 @@ std::shared_ptr<Lines> open_lines(const Configuration& site) {
 
 }  // namespace
 
-Appliance::Appliance(const Resolved& site)
+Appliance::Appliance(const files::Resolved& site)
     : site_(site),
       aligned_(aligned_site(site)),
       accepted_(site),
@@ -69,7 +69,7 @@ Appliance::~Appliance() {
   lines_->stop();
 }
 
-Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart restart,
+Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, Restart restart,
                                                    AcceptanceCheck check_acceptance,
                                                    Program program) {
   if (auto checked = hal::check(site.site.threads); !checked) {
@@ -91,16 +91,16 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   all.watch_.emplace(all.aligned_, site.state_folder, hal::SharedThreads::alone("watch"));
   all.alignment_.emplace(all.aligned_, *all.watch_, all.accepted_, restart.request,
                          std::move(check_acceptance));
-  all.assumptions_ = app::assumptions(site, *planned);
+  all.assumptions_ = daemon::assumptions(site, *planned);
   const auto carry_out = [&all](const Command& command) {
     return dispatch(command, *all.receivers_);
   };
   all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.background_,
                           &*all.alignment_, std::move(program));
   plan->surroundings = [&all, grants](hal::TimePoint now) {
-    return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),
-                        grants.realtime,           grants.memory_locked, all.watched(),
-                        all.configuration_refused_};
+    return pipeline::Surroundings{
+        all.health_.latest(now), all.lines_->faults(), all.interfaces_->faults(), grants.realtime,
+        grants.memory_locked,    all.watched(),        all.configuration_refused_};
   };
   all.absent_ = plan->absent;
   for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
@@ -170,4 +170,4 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -23,7 +23,7 @@
 #include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// All that runs for a site: lines, cameras and their pipeline, interfaces. What is not there is
 /// among the attempts. Thread rule: one owner.
@@ -31,7 +31,7 @@ class Appliance {
  public:
   /// Opens the lines and cameras that are there. `site` outlives it and has a state folder.
   /// `program` is for the interfaces. Error: the files.
-  static Result<std::unique_ptr<Appliance>> make(const Resolved& site, Restart restart,
+  static Result<std::unique_ptr<Appliance>> make(const files::Resolved& site, Restart restart,
                                                  AcceptanceCheck check_acceptance,
                                                  Program program = {});
   /// Stops what runs: first the pipeline, which calls the others.
@@ -62,21 +62,21 @@ class Appliance {
   std::weak_ptr<Lines> lines() const { return lines_; }
 
  private:
-  explicit Appliance(const Resolved& site);
+  explicit Appliance(const files::Resolved& site);
   std::array<CameraWatchStatus, kMaxCameras> watched() const;
   void restore(const Selection& selection);
 
-  const Resolved& site_;
+  const files::Resolved& site_;
   const AlignedSite aligned_;
   AlignmentRecord accepted_;
   const std::shared_ptr<CommandRecord> record_;
   const std::shared_ptr<hal::SharedThreads> background_;
   HealthSampler health_;
-  std::optional<Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
+  std::optional<pipeline::Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
   const std::shared_ptr<Lines> lines_;
   std::vector<std::string> assumptions_;
   std::vector<hal::Camera*> cameras_;  ///< the pipeline's
-  CameraSet absent_;
+  pipeline::CameraSet absent_;
   std::optional<CameraWatch> watch_;
   std::optional<AlignmentDesk> alignment_;
   std::optional<Receivers> receivers_;
@@ -85,4 +85,4 @@ class Appliance {
   std::atomic<bool> configuration_refused_{false};  ///< read by the pipeline
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

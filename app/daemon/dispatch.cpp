@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/daemon/dispatch.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// A result is the frame set that begins with the pacing camera's trigger; without a trigger line,
@@ -33,7 +33,7 @@ CommandResult restart(const Receivers& receivers) {
 }  // namespace
 
 CommandResult dispatch(const Command& command, const Receivers& receivers) {
-  Pipeline& pipeline = receivers.pipeline;
+  pipeline::Pipeline& pipeline = receivers.pipeline;
   const auto& arguments = command.arguments;
   // Without a default the compiler refuses a command without a handler.
   switch (command.code) {
@@ -103,4 +103,4 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
   return CommandResult::UnknownCommand;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -9,11 +9,11 @@
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/watch/camera_watch.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// What executes commands.
 struct Receivers {
-  Pipeline& pipeline;
+  pipeline::Pipeline& pipeline;
   Lines& lines;
   SnapshotSink* snapshots;  ///< null: no folder for them is configured
   CameraWatch& watch;
@@ -25,4 +25,4 @@ struct Receivers {
 /// but in restart and in accepting an alignment, which check the files before.
 CommandResult dispatch(const Command& command, const Receivers& receivers);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

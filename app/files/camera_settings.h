@@ -26,7 +26,7 @@
 #include "proc/settings/settings.h"
 #include "proc/signals/radiometry.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// The list of camera back-ends: one line each. A settings struct has its word in the file as
 /// kName, its keys in visit() and what programs need to know in kFacts, see hal/back_end.h;
@@ -140,10 +140,10 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.required("name", camera.name, "Camera's name in the rig, also used by views and messages");
   v.one_of("back_end", camera.back_end, "Source of the camera's frames");
   v.optional(
-      "width", camera.stream.width, kSide,
+      "width", camera.stream.width, pipeline::kSide,
       "Picture width, px, equal to the rig's; default: the camera's own, for v4l2 the rig's");
   v.optional(
-      "height", camera.stream.height, kSide,
+      "height", camera.stream.height, pipeline::kSide,
       "Picture height, px, equal to the rig's; default: the camera's own, for v4l2 the rig's");
   v.optional("frame_rate", camera.stream.frame_rate, Range::between(0.01, hal::kMaxFrameRate),
              "Frames per second; default: the camera's own");
@@ -171,7 +171,7 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.optional("stamp_offset_us", camera.stamps.offset, Microseconds{Range::between(-1e6, 1e6)},
              "Measured timestamp latency, us; subtracted from the camera's time stamps");
   v.optional(
-      "encoding", camera.encoding, kEncodings,
+      "encoding", camera.encoding, pipeline::kEncodings,
       "Encoding of the camera's own pictures over DDS; 16-bit pictures are published as mono16");
   v.table("watch", camera.watch, "Supervision of alignment, focus and cleanliness");
   v.tables("control", camera.controls, 0, 64,
@@ -188,4 +188,4 @@ void visit(Visitor& v, CameraSettings& camera) {
             "back_end", std::string(name) + " needs width and height");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -23,7 +23,7 @@
 #include "hal/thread/thread_settings.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// The list of sinks, one per line. A settings struct has the name and the meaning of its table as
 /// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
@@ -55,12 +55,12 @@ struct RecipeFile {
 /// Contents of the file of `orbwatchd --config`: names, not indices. See resolve().
 struct Configuration {
   NamedFile rig;
-  PipelineSettings pipeline;
+  pipeline::PipelineSettings pipeline;
   hal::ThreadSettings threads;
   simulation::MachineSettings simulation;
   std::vector<Located<CameraSettings>> cameras;
   std::vector<Located<LineSettings>> lines;
-  std::vector<Located<ViewSettings>> views;
+  std::vector<Located<pipeline::ViewSettings>> views;
   std::vector<Located<RecipeFile>> recipes;  ///< the first recipe is measured from the start
   PlaceSettings place;
   std::filesystem::path state_folder;  ///< empty: the file names none; see Resolved::state_folder
@@ -90,7 +90,7 @@ void visit(Visitor& v, Configuration& configuration) {
   v.tables("line", configuration.lines, 0, 32, "Digital inputs and outputs");
   v.tables("view", configuration.views, 0, kMaxViews,
            "Display views: virtual cameras in the ball's centre that commands can point");
-  v.tables("recipe", configuration.recipes, 0, kMaxRecipes,
+  v.tables("recipe", configuration.recipes, 0, pipeline::kMaxRecipes,
            "Recipes; the first one is selected at start");
   v.table(
       "place", configuration.place,
@@ -106,4 +106,4 @@ void visit(Visitor& v, Configuration& configuration) {
 /// Manual of all keys in Markdown.
 std::string configuration_manual();
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

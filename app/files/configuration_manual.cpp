@@ -2,7 +2,7 @@
 #include "app/files/configuration.h"
 #include "app/files/toml/manual_writer.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 std::string configuration_manual() {
   Configuration configuration;
@@ -16,4 +16,4 @@ std::string configuration_manual() {
       configuration);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 bool is_plain_name(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
@@ -13,4 +13,4 @@ bool is_plain_name(const std::string& name) {
          name.find("__") == std::string::npos;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

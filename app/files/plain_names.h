@@ -7,7 +7,7 @@
 
 #include "app/files/toml/finding.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// True if a name can be part of topics and file names: letters, digits and single _, a letter
 /// first, at most 64.
@@ -30,4 +30,4 @@ void check_names(const std::vector<Named>& list, const std::string& key, Finding
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

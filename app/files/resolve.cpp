@@ -16,7 +16,7 @@
 #include "app/pipeline/views/picture_use.h"
 #include "app/state/state_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 template <class Named>
@@ -121,7 +121,7 @@ class Resolver {
         "there is no camera \"" + camera.name + "\"; there are: " + joined_names(site_.cameras));
   }
 
-  void resolve_sources(ViewSettings& view, int line, Finding& finding) {
+  void resolve_sources(pipeline::ViewSettings& view, int line, Finding& finding) {
     if (view.name == "selected") {
       finding.refuse(line, "view.name", "\"selected\" is the topic of the selected view");
     }
@@ -131,8 +131,8 @@ class Resolver {
     }
   }
 
-  void check_sharpness(const SourceSettings& source, int line, Finding& finding) {
-    PictureUse& use = sharpened_[source.camera.index];
+  void check_sharpness(const pipeline::SourceSettings& source, int line, Finding& finding) {
+    pipeline::PictureUse& use = sharpened_[source.camera.index];
     if (use.add(source.sharpness, {})) return;
     std::string known;
     for (const auto& [sharpness, area] : use.sharpened()) {
@@ -142,7 +142,7 @@ class Resolver {
     }
     finding.refuse(
         line, "view.source.sharpness",
-        "camera \"" + source.camera.name + "\" has " + std::to_string(kMaxSharpnesses) +
+        "camera \"" + source.camera.name + "\" has " + std::to_string(pipeline::kMaxSharpnesses) +
             " others in views and recipes already, which is the most; use 0 or one of: " + known);
   }
 
@@ -172,7 +172,7 @@ class Resolver {
     }
   }
 
-  void resolve_recipe(Recipe& recipe, Finding& finding) {
+  void resolve_recipe(pipeline::Recipe& recipe, Finding& finding) {
     for (auto& view : recipe.views) {
       if (index_of(site_.views, view.name)) {
         finding.refuse(view.line, "view.name",
@@ -188,7 +188,7 @@ class Resolver {
       resolve_camera(control.camera, control.line, "control.camera", finding);
       check_control(control, control.line, finding);
     }
-    if (recipe.process_active == ActiveSource::Input) {
+    if (recipe.process_active == pipeline::ActiveSource::Input) {
       resolve_process_input(recipe.process_input, finding);
     }
   }
@@ -207,7 +207,7 @@ class Resolver {
 
   /// Every recipe must set the same controls, and the configuration none of them; otherwise a
   /// camera's settings would depend on previous selections.
-  void check_control(const CameraControl& control, int line, Finding& finding) {
+  void check_control(const pipeline::CameraControl& control, int line, Finding& finding) {
     const std::string what = control.camera.name + "'s " + control.name;
     const auto camera = index_of(site_.cameras, control.camera.name);
     if (camera && index_of(site_.cameras[*camera].controls, control.name)) {
@@ -215,8 +215,8 @@ class Resolver {
                      what + " is set by the configuration already; it must stand in one of them");
     }
     for (std::size_t i = 0; i < resolved_.recipes.size(); ++i) {
-      const auto times =
-          std::ranges::count_if(resolved_.recipes[i].controls, [&](const CameraControl& other) {
+      const auto times = std::ranges::count_if(
+          resolved_.recipes[i].controls, [&](const pipeline::CameraControl& other) {
             return other.camera.name == control.camera.name && other.name == control.name;
           });
       if (times == 1) continue;
@@ -230,7 +230,7 @@ class Resolver {
   Resolved& resolved_;
   Configuration& site_;
   Finding& finding_;
-  PictureUses sharpened_;  ///< sharpenings of all views
+  pipeline::PictureUses sharpened_;  ///< sharpenings of all views
 };
 
 /// Replaces the rig file's alignments by those accepted for this rig.
@@ -263,7 +263,7 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   for (const RecipeFile& settings : resolved.site.recipes) {
     auto recipe = load_recipe(settings.file.path, files);
     if (!recipe) finding.refuse(settings.file.line, "recipe.file", recipe.error().message);
-    resolved.recipes.push_back(std::move(recipe).value_or(Recipe{}));
+    resolved.recipes.push_back(std::move(recipe).value_or(pipeline::Recipe{}));
   }
   if (finding.message) return fail(*finding.message);
   resolved.rig = std::move(*rig);
@@ -319,4 +319,4 @@ Result<Resolved> resolve_text(const std::string& text, const std::string& name,
   return resolve_with(files, text, name, folder);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

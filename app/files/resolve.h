@@ -15,7 +15,7 @@
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// All files of a site, read together and checked against each other: every reference has its
 /// index.
@@ -26,8 +26,8 @@ struct Resolved {
   std::filesystem::path state_folder;
   optics::Rig rig;  ///< rig with the alignments in force
   std::vector<CalibrationEntry> alignments;
-  std::vector<std::size_t> rig_cameras;  ///< index in the rig for each camera
-  std::vector<Recipe> recipes;           ///< recipes in the order of site.recipes
+  std::vector<std::size_t> rig_cameras;   ///< index in the rig for each camera
+  std::vector<pipeline::Recipe> recipes;  ///< recipes in the order of site.recipes
   /// Views: those of the configuration, then those of the recipes, where equal names mean one view.
   StatusNames names;
   std::uint32_t checksum = 0;      ///< CRC-32 of all the files
@@ -56,4 +56,4 @@ Result<Resolved> resolve_text(const std::string& text, const std::string& name,
 /// file's, for the error. Errors: as resolve().
 Result<> resolve_references(Resolved& resolved, const std::string& name);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -7,7 +7,7 @@
 
 #include "app/log.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 /// Longest time that any camera needs to apply a control that it accepts.
@@ -217,4 +217,4 @@ void CameraGroup::report(Status& status, std::optional<hal::Clock::duration> ela
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -21,7 +21,7 @@
 #include "hal/thread/priority_mutex.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Set of cameras; bit n: camera n.
 using CameraSet = std::bitset<kMaxCameras>;
@@ -106,4 +106,4 @@ class CameraGroup {
   std::vector<Member> members_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -8,7 +8,7 @@
 
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Processing time allowed per frame set, and the reaction to an overrun: display views slow down,
 /// so that measurements keep up. After an overrun they are due half as often, down to every eighth
@@ -65,4 +65,4 @@ class FrameBudget {
   std::uint64_t overruns_ = 0;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

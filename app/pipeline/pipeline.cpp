@@ -8,7 +8,7 @@
 
 #include "app/log.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 /// Period of the status without frames: the PLC's heartbeat.
@@ -419,4 +419,4 @@ CommandResult Pipeline::set_process_active(bool active) {
   return measurement_ ? measurement_->set_process_active(active) : CommandResult::NotPossible;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -38,7 +38,7 @@
 #include "hal/thread/shared_threads.h"
 #include "hal/thread/thread.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// State from outside the pipeline that it reports.
 struct Surroundings {
@@ -192,4 +192,4 @@ class Pipeline {
   hal::Thread thread_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -4,7 +4,7 @@
 #include "hal/sync/frame_matcher.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Frame budget and workers.
 struct PipelineSettings {
@@ -27,4 +27,4 @@ void visit(Visitor& v, PipelineSettings& pipeline) {
              "but one, or all of `threads.cores`");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -10,7 +10,7 @@
 #include "app/pipeline/views/view_plan.h"
 #include "hal/camera.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Objects made anew for a camera whose format differs from the assumed one.
 struct Recompiled {
@@ -21,4 +21,4 @@ struct Recompiled {
       recipes;  ///< one per index; null: does not use this camera
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

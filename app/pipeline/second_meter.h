@@ -8,7 +8,7 @@
 
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Rate and latency over the last full second. Fixed memory; thread-bound.
 class SecondMeter {
@@ -63,4 +63,4 @@ class SecondMeter {
   std::size_t count_ = 0;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -6,7 +6,7 @@
 
 #include "hal/thread/cpu_time.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 using std::chrono::nanoseconds;
 
@@ -52,4 +52,4 @@ void StageMeter::roll(hal::Clock::duration elapsed, Status& status) {
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -8,7 +8,7 @@
 #include "app/pipeline/second_meter.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Processor time of each stage per frame set, over all threads that work on it, because wall time
 /// is distorted while other programs run. Fixed memory; thread-bound: the pipeline's thread.
@@ -51,4 +51,4 @@ class StageMeter {
   Growth sinks_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -7,7 +7,7 @@
 
 #include "hal/thread/cpu_time.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::chrono::nanoseconds WorkerPool::take_spent() {
   return std::chrono::nanoseconds(spent_.exchange(0));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -9,7 +9,7 @@
 
 #include "hal/thread/thread.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Threads that share the bands of one picture with the caller. A band belongs to the thread that
 /// claims it first, and run() waits for claimed bands only: a worker that the kernel did not
@@ -53,4 +53,4 @@ class WorkerPool {
   std::vector<hal::Thread> threads_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -30,9 +30,9 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-app::TopicStatistics statistics_of(const app::DdsSink& sink, const std::string& topic) {
+app::dds::TopicStatistics statistics_of(const app::dds::DdsSink& sink, const std::string& topic) {
   const auto statistics = sink.statistics();
-  const auto found = std::ranges::find(statistics.topics, topic, &app::TopicStatistics::topic);
+  const auto found = std::ranges::find(statistics.topics, topic, &app::dds::TopicStatistics::topic);
   if (found == statistics.topics.end()) throw std::runtime_error("no topic " + topic);
   return *found;
 }
@@ -78,7 +78,7 @@ std::vector<DdsCase> dds_cases() {
 
 CaseFigures measure(const DdsCase& one, std::chrono::seconds duration) {
   const ShippedNetwork network(one.network);
-  app::DdsSink sink =
+  app::dds::DdsSink sink =
       app::tests::sink_offering(settings_for(one.pictures), {}, cameras_for(one.pictures));
   network.start(sink);
   const std::string topic = topic_of(one.pictures);

@@ -62,7 +62,7 @@ std::vector<double> time_to_next(const Readers& readers, Pace& pace) {
 
 OutageFigures measure_outage() {
   const ShippedNetwork network(ShippedNetwork::Kind::Lan);
-  app::DdsSink sink(settings_for(Pictures::SmallView), app::tests::make_names(), nullptr);
+  app::dds::DdsSink sink(settings_for(Pictures::SmallView), app::tests::make_names(), nullptr);
   network.start(sink);
   sink.accept(app::tests::make_status());
   OutageFigures figures;

@@ -90,9 +90,9 @@ std::vector<app::PublishedCamera> cameras_for(Pictures pictures) {
 }
 
 std::string topic_of(Pictures pictures) {
-  if (pictures == Pictures::Camera) return app::ball_topic(kPrefix, kCamera);
-  const std::string raw = app::image_topic(kPrefix, kView);
-  return pictures == Pictures::Jpeg ? app::compressed_topic(raw) : raw;
+  if (pictures == Pictures::Camera) return app::dds::ball_topic(kPrefix, kCamera);
+  const std::string raw = app::dds::image_topic(kPrefix, kView);
+  return pictures == Pictures::Jpeg ? app::dds::compressed_topic(raw) : raw;
 }
 
 std::unique_ptr<Pace> paced(Pictures pictures, app::Sink& sink) {

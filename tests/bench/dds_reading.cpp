@@ -32,14 +32,15 @@ std::string own_path() { return std::filesystem::read_symlink("/proc/self/exe").
 int read_pictures(int domain, const std::string& topic_name) {
   std::signal(SIGTERM, [](int) { ended = 1; });
   const bool jpeg = app::cli::is_compressed_topic(topic_name);
-  const auto participant = checked(app::Participant::join(domain));
-  const auto topic = checked(app::make_topic(
+  const auto participant = checked(app::dds::Participant::join(domain));
+  const auto topic = checked(app::dds::make_topic(
       participant.entity(),
       jpeg ? sensor_msgs_msg_dds__CompressedImage__desc : sensor_msgs_msg_dds__Image__desc,
       topic_name));
-  const auto reader = checked(app::make_reader(participant.entity(), topic, app::frame_qos()));
-  const app::Entity condition(dds_create_readcondition(reader.get(), DDS_ANY_STATE));
-  const app::Entity waitset(dds_create_waitset(participant.entity().get()));
+  const auto reader =
+      checked(app::dds::make_reader(participant.entity(), topic, app::dds::frame_qos()));
+  const app::dds::Entity condition(dds_create_readcondition(reader.get(), DDS_ANY_STATE));
+  const app::dds::Entity waitset(dds_create_waitset(participant.entity().get()));
   dds_waitset_attach(waitset.get(), condition.get(), 0);
   while (ended == 0) {
     if (dds_waitset_wait(waitset.get(), nullptr, 0, DDS_MSECS(20)) <= 0) continue;
@@ -48,8 +49,8 @@ int read_pictures(int domain, const std::string& topic_name) {
     const auto count = dds_take(reader.get(), &sample, &info, 1, 1);
     if (count > 0 && info.valid_data) {
       std::printf("{\"since_match_ms\": 0, \"length\": %u}\n",
-                  jpeg ? static_cast<const app::CompressedImageMessage*>(sample)->data._length
-                       : static_cast<const app::ImageMessage*>(sample)->data._length);
+                  jpeg ? static_cast<const app::dds::CompressedImageMessage*>(sample)->data._length
+                       : static_cast<const app::dds::ImageMessage*>(sample)->data._length);
       std::fflush(stdout);
     }
     if (count > 0) dds_return_loan(reader.get(), &sample, count);

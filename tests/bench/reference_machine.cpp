@@ -32,26 +32,30 @@ optics::BallProjection thermal_ball() { return ball_in_picture(640, 512, kTherma
 /// Counts of a black body at `celsius`.
 double counts(double celsius) { return (celsius + 273.15) / kKelvinPerCount; }
 
-app::ViewSource colour_source() {
-  return {kColour, colour_format(), colour_ball(), 1, {ramp(), 0, 255}, app::kSharpness};
+app::pipeline::ViewSource colour_source() {
+  return {kColour, colour_format(), colour_ball(), 1, {ramp(), 0, 255}, app::pipeline::kSharpness};
 }
-app::ViewSource thermal_source() {
-  return {kThermal,       thermal_format(), thermal_ball(), 0.6, {ramp(), counts(20), counts(800)},
-          app::kSharpness};
+app::pipeline::ViewSource thermal_source() {
+  return {kThermal,
+          thermal_format(),
+          thermal_ball(),
+          0.6,
+          {ramp(), counts(20), counts(800)},
+          app::pipeline::kSharpness};
 }
 
-app::ViewPlan view(std::size_t index, const optics::ViewSpec& spec,
-                   std::vector<app::ViewSource> sources) {
+app::pipeline::ViewPlan view(std::size_t index, const optics::ViewSpec& spec,
+                             std::vector<app::pipeline::ViewSource> sources) {
   return {index,
           "",
           optics::ViewProjection::make(spec).value(),
           std::move(sources),
-          app::Combine::Mix,
+          app::pipeline::Combine::Mix,
           remap::Interpolation::Area,
           std::nullopt};
 }
 
-app::ViewPlan process_view() {
+app::pipeline::ViewPlan process_view() {
   const optics::YawPitchRoll at_the_table{kThermalYaw / 2, -30, 0};
   auto plan = view(kProcess, {optics::ViewKind::Perspective, at_the_table, 90, {}, 1920, 1080},
                    {colour_source(), thermal_source()});
@@ -59,7 +63,7 @@ app::ViewPlan process_view() {
   return plan;
 }
 
-std::vector<app::ViewPlan> display_views() {
+std::vector<app::pipeline::ViewPlan> display_views() {
   const optics::ViewSpec panorama{optics::ViewKind::Equirectangular, {}, {}, {}, 1024, 512};
   const optics::ViewSpec door{optics::ViewKind::Perspective, {0, -10, 0}, 90, {}, 640, 480};
   return {view(kPanorama, panorama, {colour_source(), thermal_source()}),
@@ -77,8 +81,8 @@ signals::RegionScene table() {
 }
 
 /// The middle quarter of the view, with every signal.
-app::RegionPlan region_of(const optics::ViewProjection& view) {
-  app::RegionPlan region{"pool", 0, {}};
+app::pipeline::RegionPlan region_of(const optics::ViewProjection& view) {
+  app::pipeline::RegionPlan region{"pool", 0, {}};
   for (const auto& [x, y] : {std::pair{480, 270}, {1440, 270}, {1440, 810}, {480, 810}}) {
     region.settings.outline.push_back(*view.direction(x, y));
   }
@@ -90,8 +94,8 @@ app::RegionPlan region_of(const optics::ViewProjection& view) {
   return region;
 }
 
-std::unique_ptr<app::CompiledRecipe> recipe() {
-  app::RecipePlan plan;
+std::unique_ptr<app::pipeline::CompiledRecipe> recipe() {
+  app::pipeline::RecipePlan plan;
   plan.number = 1;
   plan.views.push_back(process_view());
   plan.regions.push_back(region_of(plan.views[0].projection));
@@ -100,7 +104,7 @@ std::unique_ptr<app::CompiledRecipe> recipe() {
   width.low_warning = 14;
   width.high_warning = 26;
   plan.alarms.push_back(width);
-  return app::CompiledRecipe::make(std::move(plan), table()).value();
+  return app::pipeline::CompiledRecipe::make(std::move(plan), table()).value();
 }
 
 /// Paints white noise.
@@ -190,7 +194,7 @@ ReferenceMachine::ReferenceMachine(std::function<void()> on_set)
   auto thermal = camera("thermal", thermal_format(), paint_thermal);
   colour_ = colour.get();
   thermal_ = thermal.get();
-  app::PipelinePlan plan;
+  app::pipeline::PipelinePlan plan;
   plan.cameras.push_back(std::move(colour));
   plan.cameras.push_back(std::move(thermal));
   plan.formats = {colour_format(), thermal_format()};

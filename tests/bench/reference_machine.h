@@ -41,7 +41,7 @@ class ReferenceMachine {
   std::unique_ptr<Reader> reader_;
   PreparedCamera* colour_ = nullptr;   ///< owned by the pipeline
   PreparedCamera* thermal_ = nullptr;  ///< owned by the pipeline
-  std::optional<app::Pipeline> pipeline_;
+  std::optional<app::pipeline::Pipeline> pipeline_;
   const hal::TimePoint begin_ = hal::Clock::now();
   std::uint64_t sets_ = 0;
 };

@@ -31,13 +31,13 @@ void execute(const std::string& command) { ASSERT_EQ(std::system(command.c_str()
 std::optional<CameraUnderTest> CameraUnderTest::instance_;
 
 Result<> CameraUnderTest::load(const std::filesystem::path& file) {
-  const auto text = app::TextFiles().read(file, "a TOML file");
+  const auto text = app::files::TextFiles().read(file, "a TOML file");
   if (!text) return tl::unexpected(text.error());
-  app::Finding finding;
+  app::files::Finding finding;
   finding.file = file.string();
   finding.folder = file.parent_path();
   ComplianceSettings settings;
-  app::read_toml(*text, settings, finding);
+  app::files::read_toml(*text, settings, finding);
   if (finding.message) return fail(*finding.message);
   instance_ = CameraUnderTest(std::move(settings));
   return {};
@@ -45,22 +45,22 @@ Result<> CameraUnderTest::load(const std::filesystem::path& file) {
 
 const CameraUnderTest& CameraUnderTest::get() { return instance_.value(); }
 
-std::unique_ptr<hal::Camera> CameraUnderTest::make(const app::CameraSettings& settings) {
+std::unique_ptr<hal::Camera> CameraUnderTest::make(const app::files::CameraSettings& settings) {
   static const auto machine = app::simulation::Machine::make({}, hal::Clock::now()).value();
-  return app::make_camera(settings, machine);
+  return app::daemon::make_camera(settings, machine);
 }
 
-hal::StreamRequest CameraUnderTest::request(const app::CameraSettings& settings) {
+hal::StreamRequest CameraUnderTest::request(const app::files::CameraSettings& settings) {
   return settings.stream;
 }
 
 bool CameraUnderTest::is_scripted() const {
-  const hal::CameraOrigin origin = app::facts_of(settings_.cameras.front().back_end).origin;
+  const hal::CameraOrigin origin = app::files::facts_of(settings_.cameras.front().back_end).origin;
   return origin == hal::CameraOrigin::Process || origin == hal::CameraOrigin::Files;
 }
 
 std::unique_ptr<hal::Camera> CameraUnderTest::make_unpluggable() const {
-  app::CameraSettings settings = settings_.cameras.front();
+  app::files::CameraSettings settings = settings_.cameras.front();
   if (is_scripted()) settings.faults = {{hal::Fault::Unplugged, 5, 15}};
   return make(settings);
 }

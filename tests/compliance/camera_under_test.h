@@ -15,7 +15,7 @@ namespace orbwatch::tests {
 
 /// Settings of the suite: see README.md.
 struct ComplianceSettings {
-  std::vector<app::CameraSettings> cameras;
+  std::vector<app::files::CameraSettings> cameras;
   std::size_t most_frames = 89;
   bool counts_all = true;
   std::string unplug;
@@ -51,8 +51,8 @@ class CameraUnderTest {
  private:
   explicit CameraUnderTest(ComplianceSettings settings) : settings_(std::move(settings)) {}
 
-  static std::unique_ptr<hal::Camera> make(const app::CameraSettings& settings);
-  static hal::StreamRequest request(const app::CameraSettings& settings);
+  static std::unique_ptr<hal::Camera> make(const app::files::CameraSettings& settings);
+  static hal::StreamRequest request(const app::files::CameraSettings& settings);
   /// True if its faults are scripted by exposure number.
   bool is_scripted() const;
 

@@ -79,8 +79,8 @@ class WireCommand {
   bool is_swapped_ = false;
 };
 
-void compare(const app::CommandRequest& request, const WireCommand& sent) {
-  require(request.id == app::RequestId{sent.client, sent.number}, "another id than was sent");
+void compare(const app::dds::CommandRequest& request, const WireCommand& sent) {
+  require(request.id == app::dds::RequestId{sent.client, sent.number}, "another id than was sent");
   require(sent.name.starts_with(request.name), "another name than was sent");
   const bool is_known = app::find_command(sent.name) != nullptr;
   require(is_known == (app::find_command(request.name) != nullptr), "a name that was cut is known");
@@ -96,29 +96,31 @@ class Network {
  public:
   Network()
       : domain_(dds_create_domain(kDomain, tests::loopback_dds().c_str())),
-        participant_(app::Participant::join(kDomain).value()),
-        topic_(app::make_topic(participant_.entity(), orbwatch_msgs_msg_dds__Command__desc, name())
+        participant_(app::dds::Participant::join(kDomain).value()),
+        topic_(app::dds::make_topic(participant_.entity(), orbwatch_msgs_msg_dds__Command__desc,
+                                    name())
                    .value()),
-        writer_(app::make_writer(participant_.entity(), topic_, app::command_qos()).value()) {
-    require(reader_.open(participant_.entity(), app::command_qos()).has_value(), "no reader");
+        writer_(
+            app::dds::make_writer(participant_.entity(), topic_, app::dds::command_qos()).value()) {
+    require(reader_.open(participant_.entity(), app::dds::command_qos()).has_value(), "no reader");
     // Cyclone DDS's internal type is available only with a sample.
-    const app::CommandMessage first{1, 1, const_cast<char*>(""), {}};
+    const app::dds::CommandMessage first{1, 1, const_cast<char*>(""), {}};
     require(dds_write(writer_.get(), &first) == DDS_RETCODE_OK, "nothing can be written");
     dds_sample_info_t info{};
     require(dds_takecdr(reader_.get(), &first_, 1, &info, DDS_ANY_STATE) == 1, "nothing came");
   }
 
   /// The request made from a sample; nullopt if the sample is not valid.
-  std::optional<app::CommandRequest> receive(Bytes sample) {
+  std::optional<app::dds::CommandRequest> receive(Bytes sample) {
     // Cyclone DDS changes the bytes of its own copy only.
     ddsrt_iovec_t piece{const_cast<std::uint8_t*>(sample.data()), sample.size()};
     ddsi_serdata* const read =
         ddsi_serdata_from_ser_iov(first_->type, SDK_DATA, 1, &piece, sample.size());
     if (read == nullptr) return std::nullopt;
     require(dds_writecdr(writer_.get(), read) == DDS_RETCODE_OK, "not delivered");
-    std::optional<app::CommandRequest> request;
-    const auto taken = app::take_samples(reader_.get(), [&](const void* message, const auto&) {
-      request = app::request_of(*static_cast<const app::CommandMessage*>(message));
+    std::optional<app::dds::CommandRequest> request;
+    const auto taken = app::dds::take_samples(reader_.get(), [&](const void* message, const auto&) {
+      request = app::dds::request_of(*static_cast<const app::dds::CommandMessage*>(message));
     });
     require(taken && *taken == 1 && request, "a sample that was read did not come");
     return request;
@@ -126,33 +128,34 @@ class Network {
 
  private:
   static constexpr int kDomain = 1;
-  static std::string name() { return app::command_topic("orbwatch"); }
+  static std::string name() { return app::dds::command_topic("orbwatch"); }
 
-  app::Entity domain_;
-  app::Participant participant_;
-  app::Entity topic_;
-  app::Entity writer_;
-  app::TopicReader reader_{orbwatch_msgs_msg_dds__Command__desc, name()};
+  app::dds::Entity domain_;
+  app::dds::Participant participant_;
+  app::dds::Entity topic_;
+  app::dds::Entity writer_;
+  app::dds::TopicReader reader_{orbwatch_msgs_msg_dds__Command__desc, name()};
   ddsi_serdata* first_ = nullptr;
 };
 
 /// Executes requests like CommandService, without its limit of commands per second.
 class Machine {
  public:
-  void serve(const app::CommandRequest& request) {
-    if (ledger_.judge(request.id) != app::RequestLedger::Verdict::New) return;
-    const app::CommandAnswer answer = app::carry_out(request, [&](const app::Command& command) {
-      require(app::check(command) == app::CommandResult::Done, "a command that is not allowed");
-      require(std::exchange(newest_[request.id.client], request.id.number) < request.id.number,
-              "a command was carried out again");
-      return app::CommandResult::Done;
-    });
+  void serve(const app::dds::CommandRequest& request) {
+    if (ledger_.judge(request.id) != app::dds::RequestLedger::Verdict::New) return;
+    const app::dds::CommandAnswer answer =
+        app::dds::carry_out(request, [&](const app::Command& command) {
+          require(app::check(command) == app::CommandResult::Done, "a command that is not allowed");
+          require(std::exchange(newest_[request.id.client], request.id.number) < request.id.number,
+                  "a command was carried out again");
+          return app::CommandResult::Done;
+        });
     require(answer.text.find('\n') == std::string::npos, "an answer of several lines");
     ledger_.record(request.id, answer);
   }
 
  private:
-  app::RequestLedger ledger_{app::CommandRecord::kMaxClients};
+  app::dds::RequestLedger ledger_{app::CommandRecord::kMaxClients};
   std::map<std::uint64_t, std::uint64_t> newest_;
 };
 

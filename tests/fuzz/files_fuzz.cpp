@@ -28,29 +28,30 @@ void require_one_line(const std::string& message) {
 }
 
 void read_site(const std::string& text) {
-  app::Finding finding{kName, {}};
-  app::Configuration site;
-  app::read_toml(text, site, finding);
+  app::files::Finding finding{kName, {}};
+  app::files::Configuration site;
+  app::files::read_toml(text, site, finding);
   if (finding.message) require_one_line(*finding.message);
 }
 
 void read_recipe(const std::string& text) {
-  const auto recipe = app::parse_recipe(text, kName);
+  const auto recipe = app::files::parse_recipe(text, kName);
   if (!recipe) require_one_line(recipe.error().message);
 }
 
 void read_rig(const std::string& text) {
-  const auto rig = app::parse_rig(text, kName, "/nonexistent");
+  const auto rig = app::files::parse_rig(text, kName, "/nonexistent");
   if (!rig) require_one_line(rig.error().message);
 }
 
 void read_calibration(const std::string& text) {
-  const auto lens = app::parse_calibration(text, kName);
+  const auto lens = app::files::parse_calibration(text, kName);
   if (!lens) return require_one_line(lens.error().message);
-  for (const auto format : {app::CalibrationFormat::OpenCv, app::CalibrationFormat::Ros}) {
-    const auto written = app::calibration_text(*lens, "camera", format);
+  for (const auto format :
+       {app::files::CalibrationFormat::OpenCv, app::files::CalibrationFormat::Ros}) {
+    const auto written = app::files::calibration_text(*lens, "camera", format);
     require(written.has_value(), "a calibration that was read is not written");
-    const auto again = app::parse_calibration(*written, kName);
+    const auto again = app::files::parse_calibration(*written, kName);
     require(again.has_value(), "a calibration that was written is not read");
   }
 }

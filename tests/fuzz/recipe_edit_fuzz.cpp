@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const std::string text(end == std::string_view::npos ? "" : bytes.substr(end + 1));
-  const auto changed = changed_recipe(text, "recipe.toml", request->change);
+  const auto changed = orbwatch::app::files::changed_recipe(text, "recipe.toml", request->change);
   if (!changed) {
     const std::string& why = changed.error().message;
     if (!why.starts_with("recipe.toml") || why.find('\n') != std::string::npos) std::abort();
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (region.is_removed) return 0;
     region.added.reset();
   }
-  const auto again = changed_recipe(*changed, "recipe.toml", request->change);
+  const auto again = orbwatch::app::files::changed_recipe(*changed, "recipe.toml", request->change);
   if (!again || *again != *changed) std::abort();
   return 0;
 }

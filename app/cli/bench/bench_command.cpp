@@ -54,9 +54,10 @@ std::vector<Option> declare(BenchOptions& o) {
 }
 
 Result<std::string> bench(const BenchOptions& o) {
-  auto site = resolve(site_file(o.config));
+  auto site = files::resolve(files::site_file(o.config));
   if (!site) return tl::unexpected(site.error());
-  if (auto keys = check_keys(*site, Dates::Ignored); !keys) return tl::unexpected(keys.error());
+  if (auto keys = daemon::check_keys(*site, Dates::Ignored); !keys)
+    return tl::unexpected(keys.error());
   silence_console(*site);
   std::vector<std::string> notes;
   if (o.simulated) notes = simulate_cameras(*site);

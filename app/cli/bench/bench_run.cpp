@@ -45,7 +45,7 @@ std::string format_text(const hal::StreamFormat& format) {
 }
 
 /// Texts such as "camera front: camera is not connected", for cameras with a fault.
-std::string faults_of(const Resolved& site, const Status& status) {
+std::string faults_of(const files::Resolved& site, const Status& status) {
   std::string text;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     if (status.cameras[i].fault == hal::Fault::None) continue;
@@ -56,7 +56,7 @@ std::string faults_of(const Resolved& site, const Status& status) {
 }
 
 /// Figures that are known before the run.
-BenchFigures described(const Resolved& site, const std::vector<std::string>& notes,
+BenchFigures described(const files::Resolved& site, const std::vector<std::string>& notes,
                        const std::vector<hal::StreamFormat>& formats) {
   BenchFigures figures;
   figures.cores = hal::usable_cores().size();
@@ -65,22 +65,22 @@ BenchFigures described(const Resolved& site, const std::vector<std::string>& not
     if (i < notes.size()) format += ", " + notes[i];
     figures.cameras.push_back({site.site.cameras[i].name, std::move(format), 0});
   }
-  const auto add = [&figures](const ViewSettings& view) {
+  const auto add = [&figures](const pipeline::ViewSettings& view) {
     figures.views.resize(std::max(figures.views.size(), view.index + 1));
     auto& added = figures.views[view.index];
     added.name = view.name;
     added.width = view.width;
     added.height = view.height;
   };
-  for (const ViewSettings& view : site.site.views) add(view);
-  for (const Recipe& recipe : site.recipes) {
-    for (const ViewSettings& view : recipe.views) add(view);
+  for (const pipeline::ViewSettings& view : site.site.views) add(view);
+  for (const pipeline::Recipe& recipe : site.recipes) {
+    for (const pipeline::ViewSettings& view : recipe.views) add(view);
   }
   return figures;
 }
 
 /// Frame sets per second that the cameras or the configuration request.
-double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
+double wanted_rate(const files::Resolved& site, const hal::StreamFormat& pacing,
                    const CameraStatus& camera) {
   const double deadline = std::chrono::duration<double>(site.site.pipeline.deadline).count();
   if (deadline > 0) return 1 / deadline;
@@ -90,7 +90,7 @@ double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
 /// Folder for the state of the run only: the machine must not remember its results.
 class TemporaryState {
  public:
-  explicit TemporaryState(const Resolved& site) : site_(site) {
+  explicit TemporaryState(const files::Resolved& site) : site_(site) {
     std::string name =
         (std::filesystem::temp_directory_path(error_) / "orbwatch-bench-XXXXXX").string();
     if (!error_ && ::mkdtemp(name.data()) == nullptr) error_.assign(errno, std::generic_category());
@@ -102,25 +102,25 @@ class TemporaryState {
     if (!error_) std::filesystem::remove_all(site_.state_folder, error_);
   }
   const std::error_code& error() const { return error_; }
-  const Resolved& site() const { return site_; }
+  const files::Resolved& site() const { return site_; }
 
  private:
   std::error_code error_;
-  Resolved site_;
+  files::Resolved site_;
 };
 
 }  // namespace
 
-Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
+Result<BenchFigures> run_bench(const files::Resolved& site, const std::vector<std::string>& notes,
                                const BenchSettings& settings, const BenchWatch& watch) {
   const auto& cancelled = watch.cancelled;
   BenchSink sink(settings.seconds);
   const TemporaryState state(site);
   if (state.error()) return fail("no temporary folder: " + state.error().message());
-  auto made = Appliance::make(state.site(), {[] { return Result<>(); }, [] {}},
-                              [](const CalibrationEntry&) { return Result<>(); });
+  auto made = daemon::Appliance::make(state.site(), {[] { return Result<>(); }, [] {}},
+                                      [](const CalibrationEntry&) { return Result<>(); });
   if (!made) return tl::unexpected(made.error());
-  Appliance& appliance = **made;
+  daemon::Appliance& appliance = **made;
   if (auto started = appliance.start({&sink}); !started) return tl::unexpected(started.error());
 
   const auto has_news = [&sink] {

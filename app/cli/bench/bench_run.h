@@ -27,7 +27,7 @@ struct BenchWatch {
 /// Runs the appliance of a site like orbwatchd and returns its cost. It warms up for a second
 /// first. `notes`, by camera, are for people. Errors: those of Appliance, a camera that cannot be
 /// opened, no frame within the patience, `cancelled` before a frame set was measured.
-Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
+Result<BenchFigures> run_bench(const files::Resolved& site, const std::vector<std::string>& notes,
                                const BenchSettings& settings, const BenchWatch& watch);
 
 }  // namespace orbwatch::app::cli

@@ -27,8 +27,8 @@ bool is_fulfilled(std::chrono::milliseconds patience, const Condition& condition
 
 /// True if the trial runs, is confirmed already, or waits for a daemon.
 bool is_alive(const std::filesystem::path& folder) {
-  const auto running = running_trial(folder), confirmed = confirmed_trial(folder);
-  return is_trial_requested(folder) || !running || *running || !confirmed || *confirmed;
+  const auto running = files::running_trial(folder), confirmed = files::confirmed_trial(folder);
+  return files::is_trial_requested(folder) || !running || *running || !confirmed || *confirmed;
 }
 
 }  // namespace
@@ -36,9 +36,9 @@ bool is_alive(const std::filesystem::path& folder) {
 Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& patience) {
   Progress progress;
   progress.begin("waiting for orbwatchd");
-  const auto is_taken = [&] { return !is_trial_requested(folder); };
+  const auto is_taken = [&] { return !files::is_trial_requested(folder); };
   if (!is_fulfilled(patience.taken, is_taken)) {
-    if (const auto withdrawn = cancel_trial(folder); !withdrawn) return withdrawn;
+    if (const auto withdrawn = files::cancel_trial(folder); !withdrawn) return withdrawn;
     return fail(
         "no orbwatchd has taken it up, and the request is withdrawn: see that the service "
         "runs (systemctl status orbwatch) and keeps its state in " +
@@ -48,7 +48,7 @@ Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& p
   const auto is_known = [&] {
     const bool was_alive =
         is_alive(folder);  // read before the report, which is written before the end
-    report = trial_report(folder);
+    report = files::trial_report(folder);
     return !report || *report || !was_alive;
   };
   const bool is_over = is_fulfilled(patience.started, is_known);

@@ -43,8 +43,9 @@ struct Options {
 
 /// The texts by their paths relative to the installed file. Error: one is not in the new one's
 /// folder.
-Result<FileTexts> placed(const FileTexts& texts, const fs::path& from, const fs::path& to) {
-  FileTexts moved;
+Result<files::FileTexts> placed(const files::FileTexts& texts, const fs::path& from,
+                                const fs::path& to) {
+  files::FileTexts moved;
   for (const auto& [path, text] : texts) {
     const fs::path inside = path.lexically_relative(from);
     if (path.is_absolute() && (inside.empty() || *inside.begin() == ".."))
@@ -58,10 +59,10 @@ Result<FileTexts> placed(const FileTexts& texts, const fs::path& from, const fs:
 }
 
 /// The texts of the new files by their paths relative to the installed one, whose name may differ.
-Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
+Result<files::FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
   fs::path folder = file.parent_path();
   if (folder.empty()) folder = ".";
-  const auto site = resolve(folder / file.filename());
+  const auto site = files::resolve(folder / file.filename());
   if (!site) return tl::unexpected(site.error());
   auto texts = placed(site->texts, folder, installed.parent_path());
   if (!texts) return texts;
@@ -72,16 +73,18 @@ Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
 
 /// Root may replace any file: a folder that another user has prepared must not make it replace a
 /// key. Files with a configuration's extension may exist without being named yet.
-Result<> check_places(const FileTexts& texts, const fs::path& config, const fs::path& folder) {
+Result<> check_places(const files::FileTexts& texts, const fs::path& config,
+                      const fs::path& folder) {
   std::vector<fs::path> state{folder};
   std::set<fs::path> named{config};
-  if (const auto present = resolve(config)) {
+  if (const auto present = files::resolve(config)) {
     if (!present->state_folder.empty()) state.push_back(present->state_folder);
     for (const auto& [path, text] : present->texts) named.insert(path);
   }
   for (const auto& [path, text] : texts) {
-    if (is_configuration_name(path)) named.insert(path);
-    if (auto allowed = check_replaceable(path, config, named, state); !allowed) return allowed;
+    if (daemon::is_configuration_name(path)) named.insert(path);
+    if (auto allowed = daemon::check_replaceable(path, config, named, state); !allowed)
+      return allowed;
   }
   return {};
 }
@@ -93,10 +96,11 @@ Result<std::string> try_out(const Options& o, const fs::path& file, const fs::pa
   if (const auto allowed = check_places(*texts, o.config, folder); !allowed) {
     return tl::unexpected(allowed.error());
   }
-  const auto trial = checked_trial(o.config, *texts, o.seconds);
+  const auto trial = daemon::checked_trial(o.config, *texts, o.seconds);
   if (!trial) return tl::unexpected(trial.error());
   std::string difference;
-  for (const auto& [path, lines] : differences_from_files(trial->texts)) difference += lines;
+  for (const auto& [path, lines] : daemon::differences_from_files(trial->texts))
+    difference += lines;
   if (difference.empty()) return "changes nothing\n";
   if (o.dry_run) return difference;
   return request_trial(folder, *trial).and_then([&] { return await_trial(folder); }).map([&] {
@@ -106,7 +110,7 @@ Result<std::string> try_out(const Options& o, const fs::path& file, const fs::pa
 }
 
 Result<std::string> confirm(const fs::path& folder) {
-  return confirm_trial(folder).map([](const std::vector<fs::path>& written) {
+  return files::confirm_trial(folder).map([](const std::vector<fs::path>& written) {
     std::string text;
     for (const fs::path& path : written) text += path.string() + ": written\n";
     return text;
@@ -115,14 +119,14 @@ Result<std::string> confirm(const fs::path& folder) {
 
 CliResult<std::string> run(Options o, const std::vector<std::string>& words) {
   const bool is_named = !o.config.empty();
-  o.config = fs::absolute(site_file(o.config)).lexically_normal();
+  o.config = fs::absolute(files::site_file(o.config)).lexically_normal();
   if (is_named) o.named = " --config " + o.config.string();
   const std::size_t ways = words.size() + (o.confirm ? 1 : 0) + (o.cancel ? 1 : 0);
   if (ways != 1) return usage_error("say FILE, --confirm or --cancel");
   const auto folder = state_folder({}, o.config);
   if (!folder) return tl::unexpected(folder.error());
   if (o.confirm) return confirm(*folder);
-  if (o.cancel) return cancel_trial(*folder).map([] { return std::string("goes back\n"); });
+  if (o.cancel) return files::cancel_trial(*folder).map([] { return std::string("goes back\n"); });
   if (o.seconds < kShortestTrial || o.seconds > kLongestTrial) {
     return usage_error("--seconds is " + std::to_string(o.seconds) +
                        "; it must be from 10 to 3600");

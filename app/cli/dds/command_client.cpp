@@ -35,18 +35,18 @@ class Exchange {
   Exchange(const std::string& prefix, const Command& command)
       : command_(command),
         info_(*find_command(command.code)),
-        requests_(orbwatch_msgs_msg_dds__Command__desc, command_topic(prefix)),
-        answers_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic(prefix)) {}
+        requests_(orbwatch_msgs_msg_dds__Command__desc, dds::command_topic(prefix)),
+        answers_(orbwatch_msgs_msg_dds__CommandResult__desc, dds::command_result_topic(prefix)) {}
 
-  Result<> open(int domain, const std::optional<SecuritySettings>& security) {
-    auto participant = Participant::join(domain, security);
+  Result<> open(int domain, const std::optional<dds::SecuritySettings>& security) {
+    auto participant = dds::Participant::join(domain, security);
     if (!participant) return tl::unexpected(participant.error());
     participant_ = std::move(*participant);
-    const Entity& entity = participant_.entity();
-    return answers_.open(entity, command_qos())
-        .and_then([&] { return requests_.open(entity, command_qos()); })
+    const dds::Entity& entity = participant_.entity();
+    return answers_.open(entity, dds::command_qos())
+        .and_then([&] { return requests_.open(entity, dds::command_qos()); })
         .and_then([&] { return make_wait_set(entity, {answers_.get()}); })
-        .map([&](Entity wait_set) { wait_set_ = std::move(wait_set); });
+        .map([&](dds::Entity wait_set) { wait_set_ = std::move(wait_set); });
   }
 
   /// Makes the same command another request.
@@ -57,37 +57,37 @@ class Exchange {
   void send() {
     const auto count = static_cast<std::uint32_t>(info_.argument_count());
     // The C API has no const pointers, but a write changes nothing.
-    const CommandMessage message{id_.client,
-                                 id_.number,
-                                 const_cast<char*>(info_.name.data()),
-                                 {count, count, command_.arguments.data(), false}};
+    const dds::CommandMessage message{id_.client,
+                                      id_.number,
+                                      const_cast<char*>(info_.name.data()),
+                                      {count, count, command_.arguments.data(), false}};
     requests_.write(&message);
   }
 
   /// Receives the answer, if it arrives within `timeout`.
-  Result<std::optional<CommandAnswer>> receive(std::chrono::nanoseconds timeout) {
-    std::optional<CommandAnswer> answer;
+  Result<std::optional<dds::CommandAnswer>> receive(std::chrono::nanoseconds timeout) {
+    std::optional<dds::CommandAnswer> answer;
     const auto look = [&](const void* sample, const dds_sample_info_t&) {
-      const auto& message = *static_cast<const CommandResultMessage*>(sample);
-      const RequestId answered{message.client, message.number};
+      const auto& message = *static_cast<const dds::CommandResultMessage*>(sample);
+      const dds::RequestId answered{message.client, message.number};
       if (answered == id_) answer = {static_cast<CommandResult>(message.result), message.text};
     };
     return wait_for_data(wait_set_, timeout)
-        .and_then([&](bool) { return take_samples(answers_.get(), look); })
+        .and_then([&](bool) { return dds::take_samples(answers_.get(), look); })
         .map([&](std::size_t) { return answer; });
   }
 
  private:
-  RequestId id_{random_client(), 1};
+  dds::RequestId id_{random_client(), 1};
   Command command_;
   const CommandInfo& info_;
-  Participant participant_;
-  TopicWriter requests_;
-  TopicReader answers_;
-  Entity wait_set_;
+  dds::Participant participant_;
+  dds::TopicWriter requests_;
+  dds::TopicReader answers_;
+  dds::Entity wait_set_;
 };
 
-Result<CommandAnswer> checked(CommandAnswer answer) {
+Result<dds::CommandAnswer> checked(dds::CommandAnswer answer) {
   if (!operator_text(answer.result).empty()) return answer;
   return fail("DDS: result " + std::to_string(static_cast<int>(answer.result)) +
               " of the command is unknown");
@@ -95,9 +95,9 @@ Result<CommandAnswer> checked(CommandAnswer answer) {
 
 }  // namespace
 
-Result<CommandAnswer> send_command(const CommandOptions& options, const Command& command,
-                                   const std::atomic<bool>& cancelled) {
-  limit_dds_log();
+Result<dds::CommandAnswer> send_command(const CommandOptions& options, const Command& command,
+                                        const std::atomic<bool>& cancelled) {
+  dds::limit_dds_log();
   Exchange exchange(options.prefix, command);
   if (const auto opened = exchange.open(options.domain, options.security); !opened) {
     return tl::unexpected(opened.error());
@@ -124,7 +124,7 @@ Result<CommandAnswer> send_command(const CommandOptions& options, const Command&
   }
   if (cancelled) return fail("DDS: cancelled; the command may have been carried out or not");
   return fail(sent ? "DDS: no answer in time; the command may have been carried out or not"
-                   : "DDS: nobody accepts commands on " + command_topic(options.prefix) +
+                   : "DDS: nobody accepts commands on " + dds::command_topic(options.prefix) +
                          "; does orbwatchd run in this domain, with commands enabled?");
 }
 

@@ -18,14 +18,14 @@ struct CommandOptions {
   std::string prefix = "orbwatch";  ///< prefix of the topics
   std::chrono::milliseconds timeout{
       5000};  ///< limit for discovering orbwatchd and receiving its answer
-  std::optional<SecuritySettings> security{};  ///< required if orbwatchd has it
+  std::optional<dds::SecuritySettings> security{};  ///< required if orbwatchd has it
 };
 
 /// Sends one of kCommands over DDS and waits for its answer. The request is repeated until the
 /// answer arrives, which does not repeat the command. Thread-bound; `cancelled` is checked ten
 /// times a second. Errors: no orbwatchd accepts commands there, no answer in time, an unknown
 /// result, no usable network interface.
-Result<CommandAnswer> send_command(const CommandOptions& options, const Command& command,
-                                   const std::atomic<bool>& cancelled);
+Result<dds::CommandAnswer> send_command(const CommandOptions& options, const Command& command,
+                                        const std::atomic<bool>& cancelled);
 
 }  // namespace orbwatch::app::cli

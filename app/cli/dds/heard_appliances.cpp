@@ -15,14 +15,14 @@ constexpr std::chrono::milliseconds kListenPeriod{100};
 
 }  // namespace
 
-Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& security,
+Result<> hear_appliances(int domain, const std::optional<dds::SecuritySettings>& security,
                          std::chrono::nanoseconds duration, const std::atomic<bool>& cancelled,
                          Fleet& fleet) {
-  limit_dds_log();
+  dds::limit_dds_log();
   const auto end = hal::Clock::now() + duration;
-  const auto participant = Participant::join(domain, security);
+  const auto participant = dds::Participant::join(domain, security);
   if (!participant) return tl::unexpected(participant.error());
-  FleetReader reader(fleet);
+  dds::FleetReader reader(fleet);
   if (const auto opened = reader.open(participant->entity()); !opened) return opened;
   for (auto now = hal::Clock::now(); now < end && !cancelled; now = hal::Clock::now()) {
     std::this_thread::sleep_for(std::min<hal::Clock::duration>(kListenPeriod, end - now));

@@ -14,7 +14,7 @@ namespace orbwatch::app::cli {
 /// Joins the domain, with `security` if the appliances have it, and fills `fleet` for `duration`,
 /// or until `cancelled`, which is checked ten times a second. Thread-bound. Errors: as
 /// Participant::join, DDS refuses.
-Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& security,
+Result<> hear_appliances(int domain, const std::optional<dds::SecuritySettings>& security,
                          std::chrono::nanoseconds duration, const std::atomic<bool>& cancelled,
                          Fleet& fleet);
 

@@ -29,7 +29,7 @@ cv::Mat to_mat(const ReceivedImage& image) {
   const cv::Mat received(static_cast<int>(image.height), static_cast<int>(image.width), type,
                          const_cast<std::uint8_t*>(image.data), image.step);
   cv::Mat result;
-  if (image.encoding.name == kRgb8.name) {
+  if (image.encoding.name == dds::kRgb8.name) {
     cv::cvtColor(received, result, cv::COLOR_RGB2BGR);
   } else {
     received.copyTo(result);
@@ -50,11 +50,11 @@ Result<> save(MakeImage make_image, const std::filesystem::path& path) try {
 
 }  // namespace
 
-Result<ReceivedImage> check_image(const ImageMessage& message) {
-  const auto encoding =
-      std::ranges::find(kImageEncodings, std::string_view(message.encoding), &ImageEncoding::name);
+Result<ReceivedImage> check_image(const dds::ImageMessage& message) {
+  const auto encoding = std::ranges::find(dds::kImageEncodings, std::string_view(message.encoding),
+                                          &dds::ImageEncoding::name);
   // The message does not quote the sender, whose text may contain control characters.
-  if (encoding == kImageEncodings.end()) {
+  if (encoding == dds::kImageEncodings.end()) {
     return fail("image: encoding is none of rgb8, bgr8, mono8, mono16");
   }
   const std::uint32_t width = message.width;
@@ -81,7 +81,7 @@ Result<ReceivedImage> check_image(const ImageMessage& message) {
       height,
       message.step,
       message.data._buffer,
-      encoding->bytes_per_sample > 1 && (message.is_bigendian != 0) != kBigEndianHost};
+      encoding->bytes_per_sample > 1 && (message.is_bigendian != 0) != dds::kBigEndianHost};
 }
 
 Result<> check_image_size(std::uint32_t width, std::uint32_t height) {

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kMaxImageSide = 16384;
 
 /// Consistent received image. Its bytes belong to the message that it was made from.
 struct ReceivedImage {
-  ImageEncoding encoding = kRgb8;
+  dds::ImageEncoding encoding = dds::kRgb8;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::size_t step = 0;  ///< bytes from row to row
@@ -27,7 +27,7 @@ struct ReceivedImage {
 /// Checks a message from the network before any pixel is read. Errors: unknown encoding, a side
 /// of 0 or beyond kMaxImageSide, rows longer than the step, a step that is not a multiple of the
 /// sample's size, data of another size than step * height. Reentrant.
-Result<ReceivedImage> check_image(const ImageMessage& message);
+Result<ReceivedImage> check_image(const dds::ImageMessage& message);
 /// Checks only the sides, in pixels.
 Result<> check_image_size(std::uint32_t width, std::uint32_t height);
 

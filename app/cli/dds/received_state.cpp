@@ -37,7 +37,7 @@ Result<std::string_view> checked_word(const char* text, std::string_view what) {
   });
 }
 
-Result<Reading> checked_figure(const FigureMessage& figure) {
+Result<Reading> checked_figure(const dds::FigureMessage& figure) {
   const auto name = checked_word(figure.name, "name of a figure");
   if (!name) return tl::unexpected(name.error());
   const auto unit = checked_text(figure.unit);
@@ -47,7 +47,7 @@ Result<Reading> checked_figure(const FigureMessage& figure) {
   return Reading{*name, figure.value, *unit, *text};
 }
 
-Result<ComponentReadings> checked_component(const ComponentMessage& message) {
+Result<ComponentReadings> checked_component(const dds::ComponentMessage& message) {
   const auto kind = checked_word(message.kind, "kind of a component");
   if (!kind) return tl::unexpected(kind.error());
   const auto name = checked_text(message.name);
@@ -66,7 +66,7 @@ Result<ComponentReadings> checked_component(const ComponentMessage& message) {
 
 }  // namespace
 
-Result<ReceivedState> check_process_state(const ProcessStateMessage& message) {
+Result<ReceivedState> check_process_state(const dds::ProcessStateMessage& message) {
   const auto system_state = static_cast<SystemState>(message.system_state);
   if (operator_text(system_state).empty()) {
     return fail("process state: system state " + std::to_string(message.system_state) +
@@ -75,7 +75,7 @@ Result<ReceivedState> check_process_state(const ProcessStateMessage& message) {
   if (const auto checked = check_length(message.components._length, "components"); !checked) {
     return tl::unexpected(checked.error());
   }
-  ReceivedState state{to_utc(message.header.stamp),
+  ReceivedState state{dds::to_utc(message.header.stamp),
                       message.frame_set,
                       message.trigger,
                       message.result,
@@ -93,23 +93,23 @@ Result<ReceivedState> check_process_state(const ProcessStateMessage& message) {
 }
 
 StateReader::StateReader(const std::string& prefix)
-    : states_(orbwatch_msgs_msg_dds__ProcessState__desc, process_state_topic(prefix)) {}
+    : states_(orbwatch_msgs_msg_dds__ProcessState__desc, dds::process_state_topic(prefix)) {}
 
-Result<> StateReader::open(int domain, const std::optional<SecuritySettings>& security) {
-  limit_dds_log();
-  auto participant = Participant::join(domain, security);
+Result<> StateReader::open(int domain, const std::optional<dds::SecuritySettings>& security) {
+  dds::limit_dds_log();
+  auto participant = dds::Participant::join(domain, security);
   if (!participant) return tl::unexpected(participant.error());
   participant_ = std::move(*participant);
-  return states_.open(participant_.entity(), state_qos())
+  return states_.open(participant_.entity(), dds::state_qos())
       .and_then([&] { return make_wait_set(participant_.entity(), {states_.get()}); })
-      .map([&](Entity wait_set) { wait_set_ = std::move(wait_set); });
+      .map([&](dds::Entity wait_set) { wait_set_ = std::move(wait_set); });
 }
 
 Result<bool> StateReader::next(std::chrono::nanoseconds timeout, const AcceptState& accept) {
   bool accepted = false;
   // The topic has one instance and a history of one: there is at most one sample.
   const auto look = [&](const void* sample, const dds_sample_info_t&) {
-    const auto state = check_process_state(*static_cast<const ProcessStateMessage*>(sample));
+    const auto state = check_process_state(*static_cast<const dds::ProcessStateMessage*>(sample));
     if (state) {
       accept(*state);
       accepted = true;
@@ -118,7 +118,7 @@ Result<bool> StateReader::next(std::chrono::nanoseconds timeout, const AcceptSta
     }
   };
   const auto taken = wait_for_data(wait_set_, timeout).and_then([&](bool) {
-    return take_samples(states_.get(), look);
+    return dds::take_samples(states_.get(), look);
   });
   if (!taken) return tl::unexpected(taken.error());
   return accepted;

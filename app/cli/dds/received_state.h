@@ -36,7 +36,7 @@ struct ReceivedState {
 
 /// Checks a message from the network. Errors: an unknown system state, a list or text that is too
 /// long, a kind or a name of a figure that is not snake_case. Reentrant.
-Result<ReceivedState> check_process_state(const ProcessStateMessage& message);
+Result<ReceivedState> check_process_state(const dds::ProcessStateMessage& message);
 
 /// Receives a state, which is valid during the call only.
 using AcceptState = std::function<void(const ReceivedState& state)>;
@@ -48,7 +48,7 @@ class StateReader {
 
   /// Joins the domain, with `security` if orbwatchd has it. Errors: as Participant::join, DDS
   /// refuses.
-  Result<> open(int domain, const std::optional<SecuritySettings>& security = std::nullopt);
+  Result<> open(int domain, const std::optional<dds::SecuritySettings>& security = std::nullopt);
 
   /// Calls `accept` with the newest state that was not passed to it before, if one arrives within
   /// `timeout`; returns true if one did. The first one arrives as soon as orbwatchd is discovered.
@@ -59,9 +59,9 @@ class StateReader {
   const std::string& refusal() const { return refusal_; }
 
  private:
-  Participant participant_;
-  TopicReader states_;
-  Entity wait_set_;
+  dds::Participant participant_;
+  dds::TopicReader states_;
+  dds::Entity wait_set_;
   std::string refusal_;
 };
 

@@ -30,7 +30,8 @@ using Subscriptions = std::vector<std::unique_ptr<Subscription>>;
 Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
   std::vector<std::string> topics = options.topics;
   if (topics.empty()) {
-    topics = {image_topic(options.prefix, kSelectedView), process_state_topic(options.prefix)};
+    topics = {dds::image_topic(options.prefix, dds::kSelectedView),
+              dds::process_state_topic(options.prefix)};
   }
   Subscriptions subscriptions;
   std::set<std::string> stems;
@@ -45,7 +46,7 @@ Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
 }
 
 /// Opens all of them; returns a wait set that wakes when any has data.
-Result<Entity> open(const Subscriptions& subscriptions, const Entity& participant) {
+Result<dds::Entity> open(const Subscriptions& subscriptions, const dds::Entity& participant) {
   std::vector<dds_entity_t> readers;
   for (const auto& subscription : subscriptions) {
     if (const auto opened = subscription->open(participant); !opened) {
@@ -107,7 +108,7 @@ Result<> check_types(const Subscriptions& subscriptions, WriterTypes& types) {
   return {};
 }
 
-Result<> read(const Subscriptions& subscriptions, WriterTypes& types, const Entity& wait_set,
+Result<> read(const Subscriptions& subscriptions, WriterTypes& types, const dds::Entity& wait_set,
               const SubscribeOptions& options, const std::atomic<bool>& cancelled,
               std::ostream& out) {
   const auto print = [&](const auto& item) {
@@ -154,9 +155,9 @@ Result<> make_folder(const std::filesystem::path& folder) {
 
 Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
                                            const std::atomic<bool>& cancelled, std::ostream& out) {
-  limit_dds_log();
+  dds::limit_dds_log();
   if (const auto made = make_folder(options.save); !made) return tl::unexpected(made.error());
-  const auto participant = Participant::join(options.domain, options.security);
+  const auto participant = dds::Participant::join(options.domain, options.security);
   if (!participant) return tl::unexpected(participant.error());
   const auto subscriptions = make_subscriptions(options);
   if (!subscriptions) return tl::unexpected(subscriptions.error());
@@ -164,7 +165,7 @@ Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
   WriterTypes types;
   const auto done = types.open(participant->entity())
                         .and_then([&] { return open(*subscriptions, participant->entity()); })
-                        .and_then([&](const Entity& wait_set) {
+                        .and_then([&](const dds::Entity& wait_set) {
                           return read(*subscriptions, types, wait_set, options, cancelled, out);
                         })
                         .and_then([&] { return save(*subscriptions, options); });

@@ -15,8 +15,8 @@
 namespace orbwatch::app::cli {
 
 struct SubscribeOptions {
-  int domain = 0;                              ///< DDS domain, 0 to 230
-  std::optional<SecuritySettings> security{};  ///< required if orbwatchd has it
+  int domain = 0;                                   ///< DDS domain, 0 to 230
+  std::optional<dds::SecuritySettings> security{};  ///< required if orbwatchd has it
   std::string prefix = "orbwatch";  ///< prefix of the default topics; omitted in file names
   /// Topics with or without "rt/". None: the selected view and the process state.
   std::vector<std::string> topics{};

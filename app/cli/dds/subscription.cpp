@@ -26,8 +26,8 @@ bool is_file_name_letter(char c) {
 }
 
 /// Adds a history that bridges a pause of the reader.
-Qos deep(Qos qos) {
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kMaxTaken);
+dds::Qos deep(dds::Qos qos) {
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, dds::kMaxTaken);
   return qos;
 }
 
@@ -44,11 +44,11 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
 class ImageSubscription final : public Subscription {
  public:
   ImageSubscription(const std::string& topic, bool keep)
-      : Subscription(sensor_msgs_msg_dds__Image__desc, topic, frame_qos()), keep_(keep) {}
+      : Subscription(sensor_msgs_msg_dds__Image__desc, topic, dds::frame_qos()), keep_(keep) {}
 
  private:
   Result<Content> accept(const void* sample) override {
-    const auto& message = *static_cast<const ImageMessage*>(sample);
+    const auto& message = *static_cast<const dds::ImageMessage*>(sample);
     const auto image = check_image(message);
     if (!image) return tl::unexpected(image.error());
     if (keep_) {
@@ -75,11 +75,12 @@ class ImageSubscription final : public Subscription {
 class CompressedImageSubscription final : public Subscription {
  public:
   CompressedImageSubscription(const std::string& topic, bool keep)
-      : Subscription(sensor_msgs_msg_dds__CompressedImage__desc, topic, frame_qos()), keep_(keep) {}
+      : Subscription(sensor_msgs_msg_dds__CompressedImage__desc, topic, dds::frame_qos()),
+        keep_(keep) {}
 
  private:
   Result<Content> accept(const void* sample) override {
-    const auto& message = *static_cast<const CompressedImageMessage*>(sample);
+    const auto& message = *static_cast<const dds::CompressedImageMessage*>(sample);
     const std::span jpeg(message.data._buffer, message.data._length);
     const auto size = decoder_.read_size(std::as_bytes(jpeg));
     if (!size) return tl::unexpected(size.error());
@@ -107,11 +108,11 @@ class CompressedImageSubscription final : public Subscription {
 class ProcessStateSubscription final : public Subscription {
  public:
   explicit ProcessStateSubscription(const std::string& topic)
-      : Subscription(orbwatch_msgs_msg_dds__ProcessState__desc, topic, state_qos()) {}
+      : Subscription(orbwatch_msgs_msg_dds__ProcessState__desc, topic, dds::state_qos()) {}
 
  private:
   Result<Content> accept(const void* sample) override {
-    const auto& message = *static_cast<const ProcessStateMessage*>(sample);
+    const auto& message = *static_cast<const dds::ProcessStateMessage*>(sample);
     const auto state = check_process_state(message);
     if (!state) return tl::unexpected(state.error());
     return Content{message.header.stamp,
@@ -165,14 +166,14 @@ std::unique_ptr<Subscription> Subscription::make(const std::string& topic, bool 
   return std::make_unique<ImageSubscription>(topic, keep);
 }
 
-Subscription::Subscription(const dds_topic_descriptor_t& type, std::string topic, Qos qos)
+Subscription::Subscription(const dds_topic_descriptor_t& type, std::string topic, dds::Qos qos)
     : qos_(deep(std::move(qos))), reader_(type, topic) {
   report_.topic = std::move(topic);
 }
 
 Result<> Subscription::take(const std::function<void(const TopicSample&)>& each) {
   const auto taken =
-      take_samples(reader_.get(), [&](const void* sample, const dds_sample_info_t& info) {
+      dds::take_samples(reader_.get(), [&](const void* sample, const dds_sample_info_t& info) {
         const auto content = accept(sample);
         if (!content) {
           ++report_.refused;
@@ -185,7 +186,7 @@ Result<> Subscription::take(const std::function<void(const TopicSample&)>& each)
   if (!taken) return fail(taken.error().message + " (" + report_.topic + ")");
   dds_sample_lost_status_t lost{};
   const dds_return_t code = dds_get_sample_lost_status(reader_.get(), &lost);
-  if (code < 0) return tl::unexpected(dds_error("losses of " + report_.topic, code));
+  if (code < 0) return tl::unexpected(dds::dds_error("losses of " + report_.topic, code));
   report_.lost = lost.total_count;
   return {};
 }
@@ -202,7 +203,7 @@ TopicSample Subscription::count(const Content& content, dds_time_t written) {
   last_written_ = written;
   const dds_time_t now = dds_time();
   interval_.since_write_ms += milliseconds_between(written, now);
-  const double age = milliseconds_between(since_epoch(content.stamp).count(), now);
+  const double age = milliseconds_between(dds::since_epoch(content.stamp).count(), now);
   interval_.since_exposure_ms += age;
   return {report_.topic, content.text, age};
 }

@@ -57,8 +57,8 @@ class Subscription {
   Subscription& operator=(const Subscription&) = delete;
   virtual ~Subscription() = default;
 
-  Result<> open(const Entity& participant) { return reader_.open(participant, qos_); }
-  const TopicReader& reader() const { return reader_; }
+  Result<> open(const dds::Entity& participant) { return reader_.open(participant, qos_); }
+  const dds::TopicReader& reader() const { return reader_; }
 
   /// Takes the samples that DDS holds now, without waiting, and calls `each`, unless it is empty,
   /// with every valid one. Error: DDS refuses.
@@ -76,11 +76,11 @@ class Subscription {
  protected:
   /// Content of a valid sample.
   struct Content {
-    TimeMessage stamp;  ///< exposure start
-    std::string text;   ///< short description
+    dds::TimeMessage stamp;  ///< exposure start
+    std::string text;        ///< short description
   };
 
-  Subscription(const dds_topic_descriptor_t& type, std::string topic, Qos qos);
+  Subscription(const dds_topic_descriptor_t& type, std::string topic, dds::Qos qos);
 
   /// Checks a sample, which is valid during the call only, and copies the data needed later.
   virtual Result<Content> accept(const void* sample) = 0;
@@ -99,8 +99,8 @@ class Subscription {
     double longest_gap_ms = 0;
   };
 
-  Qos qos_;
-  TopicReader reader_;
+  dds::Qos qos_;
+  dds::TopicReader reader_;
   TopicReport report_;
   Interval interval_;
   std::string newest_;  ///< content of the newest sample

@@ -27,11 +27,11 @@ std::string type_text(std::string_view type) {
   return plain_text(text, kLongestType);
 }
 
-Result<> WriterTypes::open(const Entity& participant) {
+Result<> WriterTypes::open(const dds::Entity& participant) {
   const dds_entity_t handle =
       dds_create_reader(participant.get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
-  if (handle < 0) return tl::unexpected(dds_error("reader of discovered writers", handle));
-  reader_ = Entity(handle);
+  if (handle < 0) return tl::unexpected(dds::dds_error("reader of discovered writers", handle));
+  reader_ = dds::Entity(handle);
   return {};
 }
 
@@ -43,13 +43,13 @@ Result<> WriterTypes::update(hal::TimePoint now) {
     if (types.size() < kMostTypes) types.emplace(writer.type_name, now);
   };
   for (;;) {
-    const auto taken = take_samples(reader_.get(), note);
+    const auto taken = dds::take_samples(reader_.get(), note);
     if (!taken) return tl::unexpected(taken.error());
     if (*taken == 0) return {};
   }
 }
 
-std::string WriterTypes::unreadable(const TopicReader& reader, hal::TimePoint now) const {
+std::string WriterTypes::unreadable(const dds::TopicReader& reader, hal::TimePoint now) const {
   const auto topic = topics_.find(reader.name());
   if (topic == topics_.end() || topic->second.contains(reader.type_name())) return {};
   const auto first =

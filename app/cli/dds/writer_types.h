@@ -23,19 +23,19 @@ class WriterTypes {
   static constexpr std::chrono::seconds kDiscovery{2};
 
   /// Error: DDS refuses.
-  Result<> open(const Entity& participant);
+  Result<> open(const dds::Entity& participant);
 
   /// Takes the writers discovered since the last call. Error: DDS refuses.
   Result<> update(hal::TimePoint now);
 
   /// The type with which a topic is written, if `reader` has found no writer of its own type for
   /// kDiscovery; else empty.
-  std::string unreadable(const TopicReader& reader, hal::TimePoint now) const;
+  std::string unreadable(const dds::TopicReader& reader, hal::TimePoint now) const;
 
  private:
   using Types = std::map<std::string, hal::TimePoint>;  ///< time of discovery of each type
 
-  Entity reader_;
+  dds::Entity reader_;
   std::map<std::string, Types> topics_;
 };
 

@@ -34,15 +34,15 @@ struct DescribeCameraOptions {
   std::filesystem::path rig;
   std::string camera;
   /// None: text for people.
-  std::optional<CalibrationFormat> format;
+  std::optional<files::CalibrationFormat> format;
   bool json = false;
 };
 
 std::vector<Option> declare(DescribeCameraOptions& o) {
-  using Format = std::optional<CalibrationFormat>;
+  using Format = std::optional<files::CalibrationFormat>;
   static constexpr std::array kFormats{Word{"text", Format{}},
-                                       Word{"opencv", Format{CalibrationFormat::OpenCv}},
-                                       Word{"ros", Format{CalibrationFormat::Ros}}};
+                                       Word{"opencv", Format{files::CalibrationFormat::OpenCv}},
+                                       Word{"ros", Format{files::CalibrationFormat::Ros}}};
   return {
       {"rig", 0, "RIG", "file that describes cameras, ball and machine", text_option(o.rig)},
       {"camera", 0, "NAME", "one of its cameras", text_option(o.camera)},
@@ -174,7 +174,7 @@ CliResult<std::string> describe(const DescribeCameraOptions& o) {
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (o.camera.empty()) return usage_error("--camera is missing");
   if (o.json && o.format) return usage_error("give --json or --format, not both");
-  const auto rig = load_rig(o.rig);
+  const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto camera = find_camera(*rig, o.camera);
   if (!camera) return fail(o.rig.string() + ": " + camera.error().message);

@@ -37,11 +37,12 @@ std::string man();
 std::string completion();
 
 constexpr std::array kSubjects{
-    Subcommand{"config", "manual of the configuration file", describe_manual<configuration_manual>},
+    Subcommand{"config", "manual of the configuration file",
+               describe_manual<files::configuration_manual>},
     Subcommand{"rig", "manual of the rig file: cameras, ball and machine",
-               describe_manual<rig_manual>},
+               describe_manual<files::rig_manual>},
     Subcommand{"recipe", "manual of a recipe's file: what is measured",
-               describe_manual<recipe_manual>},
+               describe_manual<files::recipe_manual>},
     Subcommand{"registers", "manual of the Modbus registers", describe_registers},
     Subcommand{"http", "manual of the HTTP interface", describe_manual<web::manual_of_all_routes>},
     Subcommand{"view", "what cameras resolve in a view", describe_view},

@@ -124,7 +124,7 @@ std::string markdown(const optics::ViewProjection& view,
                      const std::vector<CameraFigures>& cameras) {
   const Fov fov = fov_of(view);
   std::ostringstream out;
-  out << "View: " << word_for(kViewKinds, view.kind()) << ", " << view.width() << "x"
+  out << "View: " << word_for(pipeline::kViewKinds, view.kind()) << ", " << view.width() << "x"
       << view.height() << " px, h_fov " << angle_text(fov.horizontal) << ", v_fov "
       << angle_text(fov.vertical) << " deg\n\n"
       << "Source pixels per degree where the camera sees, and shares of the view's pixels:\n\n"
@@ -153,7 +153,7 @@ std::string json(const optics::ViewProjection& view, const std::vector<CameraFig
     return value ? to_json(*value) : Json();
   };
   Json all{{"view",
-            {{"kind", word_for(kViewKinds, view.kind())},
+            {{"kind", word_for(pipeline::kViewKinds, view.kind())},
              {"width", view.width()},
              {"height", view.height()},
              {"h_fov", optional(fov.horizontal)},

@@ -56,7 +56,7 @@ std::vector<Option> declare(DetectOptions& o) {
 /// `size_note`: see hal::exif_note().
 Result<optics::BallSight> sight(const std::filesystem::path& calibration, const DetectedBall& ball,
                                 const std::string& size_note) {
-  TextFiles files;
+  files::TextFiles files;
   const auto intrinsics = read_calibration(calibration, files);
   if (!intrinsics) return tl::unexpected(intrinsics.error());
   if (intrinsics->width != ball.width || intrinsics->height != ball.height) {

@@ -27,10 +27,10 @@ void visit(Visitor& v, BoardFile& file) {
 
 /// Reads a file over the contents of `file`. Lists of tables are appended.
 Result<> read_over(const fs::path& path, BoardFile& file) {
-  TextFiles files;
+  files::TextFiles files;
   const auto text = files.read(path, "a TOML file");
   if (!text) return tl::unexpected(text.error());
-  Finding finding{.file = path.string(), .folder = path.parent_path()};
+  files::Finding finding{.file = path.string(), .folder = path.parent_path()};
   read_toml(*text, file, finding);
   if (finding.message) return fail(*finding.message);
   return {};

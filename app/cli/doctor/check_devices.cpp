@@ -8,9 +8,9 @@
 namespace orbwatch::app::cli::doctor {
 namespace {
 
-bool needs_heaps(const Configuration& site) {
-  return std::ranges::any_of(site.cameras, [](const CameraSettings& camera) {
-    return facts_of(camera.back_end).has_board_sensors;
+bool needs_heaps(const files::Configuration& site) {
+  return std::ranges::any_of(site.cameras, [](const files::CameraSettings& camera) {
+    return files::facts_of(camera.back_end).has_board_sensors;
   });
 }
 

@@ -41,7 +41,7 @@ CliResult<std::string> doctor_command(const Arguments& arguments) {
                     flag_option(json)}},
        .notes = "\nA fault keeps orbwatchd from what its configuration says; with a warning it "
                 "runs, at a\nrisk. Exit status 1: there is a fault.\n"},
-      [&](const auto&) { return examine(site_file(config), json); });
+      [&](const auto&) { return examine(files::site_file(config), json); });
 }
 
 }  // namespace orbwatch::app::cli

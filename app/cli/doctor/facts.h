@@ -109,7 +109,7 @@ struct FirewallFacts {
 
 struct Facts {
   ConfigurationFacts configuration;
-  std::optional<Configuration> site;  ///< readable part of the configuration
+  std::optional<files::Configuration> site;  ///< readable part of the configuration
   BoardFacts board;
   KernelFacts kernel;
   std::vector<Heap> heaps;

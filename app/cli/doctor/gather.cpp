@@ -35,15 +35,15 @@ void gather_configuration(const fs::path& file, Facts& facts) {
     facts.configuration.error = file.string() + ": is no file";
     return;
   }
-  auto site = resolve(file);
+  auto site = files::resolve(file);
   if (site) {
-    const auto checked = check_site(*site, Dates::Checked);
+    const auto checked = daemon::check_site(*site, Dates::Checked);
     if (!checked) facts.configuration.error = checked.error().message;
     facts.site = std::move(site->site);
     return;
   }
   facts.configuration.error = site.error().message;
-  if (auto alone = read_site(file)) facts.site = std::move(*alone);
+  if (auto alone = files::read_site(file)) facts.site = std::move(*alone);
 }
 
 HealthSources health_sources(const Sources& sources, fs::path disk) {

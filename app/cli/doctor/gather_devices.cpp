@@ -116,7 +116,7 @@ CameraFacts Search::in_module(std::string_view back_end, const std::string& addr
 void gather_devices(const Sources& sources, Facts& facts) {
   facts.heaps = heaps(sources);
   if (!facts.site) return;
-  for (const CameraSettings& camera : facts.site->cameras) {
+  for (const files::CameraSettings& camera : facts.site->cameras) {
     facts.cameras.push_back(std::visit(Search(sources, camera.name), camera.back_end));
   }
   const bool has_lines = std::ranges::any_of(

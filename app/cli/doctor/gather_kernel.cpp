@@ -63,16 +63,16 @@ std::optional<std::vector<std::string>> modules_of(const Sources& sources,
 }
 
 /// Adds the drivers that a camera of the back-end requires.
-void add_drivers(const CameraSettings& camera, const BoardFacts& board,
+void add_drivers(const files::CameraSettings& camera, const BoardFacts& board,
                  std::vector<Driver>& drivers) {
   const auto add = [&](const std::string& name) {
     if (std::ranges::find(drivers, name, &Driver::name) != drivers.end()) return;
     drivers.push_back({name, "camera " + camera.name});
   };
-  const hal::BackEndFacts& facts = facts_of(camera.back_end);
+  const hal::BackEndFacts& facts = files::facts_of(camera.back_end);
   if (facts.origin == hal::CameraOrigin::Kernel) {
     add("videodev");
-    if (address_of(camera.back_end).find("usb") != std::string::npos) add("uvcvideo");
+    if (files::address_of(camera.back_end).find("usb") != std::string::npos) add("uvcvideo");
   }
   if (facts.has_board_sensors && board.known) {
     for (const std::string& driver : board.known->camera_drivers) add(driver);
@@ -94,7 +94,7 @@ void gather_kernel(const Sources& sources, Facts& facts) {
   KernelFacts& kernel = facts.kernel;
   kernel.release = line_of(sources.at("/proc/sys/kernel/osrelease"));
   if (!facts.site) return;
-  for (const CameraSettings& camera : facts.site->cameras) {
+  for (const files::CameraSettings& camera : facts.site->cameras) {
     add_drivers(camera, board, kernel.drivers);
   }
   const auto modules = modules_of(sources, kernel.release);

@@ -57,7 +57,7 @@ bool has_one_of(const fs::path& process, const std::set<std::string>& sockets) {
 }
 
 void gather_ports(const Sources& sources, Facts& facts) {
-  for (const ListeningPort& port : listening_ports(facts.site->sinks)) {
+  for (const ListeningPort& port : daemon::listening_ports(facts.site->sinks)) {
     PortFacts found{.key = std::string(port.interface), .address = port.address, .port = port.port};
     found.error = bind_error(port.address, port.port);
     if (found.error == EADDRINUSE) found.holder = listener_on(sources.at("/proc"), port.port);

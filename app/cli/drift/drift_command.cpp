@@ -66,7 +66,7 @@ CliResult<std::string> drift(DriftOptions o, const std::string& word) {
   o.sequence.folder = word.substr(equals + 1);
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (!(o.sequence.rate > 0)) return usage_error("--rate must be above 0");
-  const auto rig = load_rig(o.rig);
+  const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto camera = find_camera(*rig, word.substr(0, equals));
   if (!camera) return fail(o.rig.string() + ": " + camera.error().message);

@@ -80,13 +80,13 @@ fs::path key_file(const fs::path& keystore, const std::string& authority) {
 
 Result<> write_certificate(const fs::path& file, const Certificate& certificate) {
   return to_pem(certificate).and_then([&](const std::string& pem) {
-    return write_key_file(file, pem, Readable::Everybody);
+    return write_key_file(file, pem, dds::Readable::Everybody);
   });
 }
 
 Result<> write_key(const fs::path& file, const Key& key) {
   return to_pem(key).and_then(
-      [&](const std::string& pem) { return write_key_file(file, pem, Readable::Owner); });
+      [&](const std::string& pem) { return write_key_file(file, pem, dds::Readable::Owner); });
 }
 
 Result<Credential> make_authority(const fs::path& keystore, const std::string& authority,
@@ -138,25 +138,25 @@ Result<Authorities> read_authorities(const fs::path& keystore) {
 /// Writes `text` beside its signed form, whose name is `document`.
 Result<> write_document(const fs::path& document, const std::string& text,
                         const Credential& signer) {
-  return sign_document(text, signer)
+  return dds::sign_document(text, signer)
       .and_then([&](const std::string& signed_text) {
-        return write_key_file(document, signed_text, Readable::Everybody);
+        return write_key_file(document, signed_text, dds::Readable::Everybody);
       })
       .and_then([&] {
         return write_key_file(fs::path(document).replace_extension(".xml"), text,
-                              Readable::Everybody);
+                              dds::Readable::Everybody);
       });
 }
 
 /// Writes all files of the participant `name` into an existing folder.
-Result<> write_enclave(const fs::path& folder, const std::string& name, const TopicAccess& topics,
-                       const KeystoreRequest& request, const ValidityPeriod& validity,
-                       const Authorities& authorities) {
-  const EnclaveFiles files(folder);
+Result<> write_enclave(const fs::path& folder, const std::string& name,
+                       const dds::TopicAccess& topics, const KeystoreRequest& request,
+                       const ValidityPeriod& validity, const Authorities& authorities) {
+  const dds::EnclaveFiles files(folder);
   const auto made =
       make_credential(name, CertificateUse::Authenticate, validity, &authorities.identity);
   if (!made) return tl::unexpected(made.error());
-  const Grant grant{subject_of(made->certificate), validity, {request.domains}, topics};
+  const dds::Grant grant{subject_of(made->certificate), validity, {request.domains}, topics};
   return write_certificate(files.identity_ca, authorities.identity.certificate)
       .and_then([&] {
         return write_certificate(files.permissions_ca, authorities.permissions.certificate);
@@ -204,10 +204,10 @@ Result<Folders> make_keystore(const KeystoreRequest& request, std::chrono::sys_s
 Result<> check_appliance(const KeystoreRequest& request, const Authorities& authorities) {
   const fs::path folder = enclave_folder(request.folder, kApplianceEnclave);
   const auto grants =
-      read_document(EnclaveFiles(folder).permissions, authorities.permissions.certificate)
-          .and_then(read_permissions);
+      dds::read_document(dds::EnclaveFiles(folder).permissions, authorities.permissions.certificate)
+          .and_then(dds::read_permissions);
   if (!grants) return tl::unexpected(grants.error());
-  const auto takes = [&](const Grant& grant) {
+  const auto takes = [&](const dds::Grant& grant) {
     const auto& published = grant.topics.publish;
     return contains(grant.domains, request.domains.first) &&
            contains(grant.domains, request.domains.last) &&
@@ -262,9 +262,10 @@ constexpr const char* kDiscovery = "ros_discovery_info";
 /// some.
 std::vector<std::string> published(std::string_view prefix) {
   std::vector<std::string> topics = bulk_topics(prefix);
-  topics.insert(topics.end(), {process_state_topic(prefix), event_topic(prefix),
-                               command_result_topic(prefix), "rt/diagnostics", kDiscovery,
-                               std::string(kApplianceTopic), std::string(kThumbnailTopic)});
+  topics.insert(topics.end(),
+                {dds::process_state_topic(prefix), dds::event_topic(prefix),
+                 dds::command_result_topic(prefix), "rt/diagnostics", kDiscovery,
+                 std::string(dds::kApplianceTopic), std::string(dds::kThumbnailTopic)});
   return topics;
 }
 
@@ -272,20 +273,22 @@ std::vector<std::string> published(std::string_view prefix) {
 
 // Topics of views and cameras: all below a name.
 std::vector<std::string> bulk_topics(std::string_view prefix) {
-  const std::string image = image_topic(prefix, "*");
+  const std::string image = dds::image_topic(prefix, "*");
   return {image.substr(0, image.rfind('/') + 1) + "*"};
 }
 
-TopicAccess appliance_access(std::string_view prefix) {
+dds::TopicAccess appliance_access(std::string_view prefix) {
   return {published(prefix),
-          {command_topic(prefix), kDiscovery, std::string(kApplianceTopic),
-           std::string(kThumbnailTopic)}};
+          {dds::command_topic(prefix), kDiscovery, std::string(dds::kApplianceTopic),
+           std::string(dds::kThumbnailTopic)}};
 }
 
-TopicAccess reader_access(std::string_view prefix) { return {{kDiscovery}, published(prefix)}; }
+dds::TopicAccess reader_access(std::string_view prefix) {
+  return {{kDiscovery}, published(prefix)};
+}
 
-TopicAccess controller_access(std::string_view prefix) {
-  return {{command_topic(prefix), kDiscovery}, published(prefix)};
+dds::TopicAccess controller_access(std::string_view prefix) {
+  return {{dds::command_topic(prefix), kDiscovery}, published(prefix)};
 }
 
 fs::path enclave_folder(const fs::path& keystore, const std::string& name) {

@@ -13,11 +13,11 @@
 namespace orbwatch::app::cli {
 
 /// Rights that orbwatchd needs for these topics.
-TopicAccess appliance_access(std::string_view prefix);
+dds::TopicAccess appliance_access(std::string_view prefix);
 
 /// Rights of its readers, and of readers that also send commands.
-TopicAccess reader_access(std::string_view prefix);
-TopicAccess controller_access(std::string_view prefix);
+dds::TopicAccess reader_access(std::string_view prefix);
+dds::TopicAccess controller_access(std::string_view prefix);
 
 /// Topics of pictures.
 std::vector<std::string> bulk_topics(std::string_view prefix);
@@ -25,10 +25,10 @@ std::vector<std::string> bulk_topics(std::string_view prefix);
 /// Contents of a keystore.
 struct KeystoreRequest {
   std::filesystem::path folder;
-  DomainRange domains;
+  dds::DomainRange domains;
   int days = 3650;  ///< days of validity, at most those of the authorities
-  TopicAccess appliance;
-  TopicAccess subscriber;
+  dds::TopicAccess appliance;
+  dds::TopicAccess subscriber;
   std::vector<std::string> bulk_topics;  ///< see governance_document()
   /// Empty: one subscriber named "subscriber", in a new keystore.
   std::vector<std::string> subscribers{};

@@ -24,11 +24,11 @@ Result<fs::path> record_folder(const fs::path& file) {
 
 /// Lines of the file, or of the configuration that ran last if the file is wrong.
 Result<std::vector<LineSettings>> lines_of_file(const fs::path& file) {
-  const auto read = read_site(file);
+  const auto read = files::read_site(file);
   if (read) return std::vector<LineSettings>(read->lines.begin(), read->lines.end());
   const auto folder = state_folder({}, file);
   if (!folder) return tl::unexpected(folder.error());
-  const auto last_good = resolve_last_good(*folder, file);
+  const auto last_good = files::resolve_last_good(*folder, file);
   if (!last_good) return fail(read.error().message + "; " + last_good.error().message);
   const auto& lines = last_good->site.lines;
   return std::vector<LineSettings>(lines.begin(), lines.end());
@@ -37,7 +37,7 @@ Result<std::vector<LineSettings>> lines_of_file(const fs::path& file) {
 Result<std::string> set_safe(const fs::path& file) {
   const auto folder = record_folder(file);
   if (!folder) return tl::unexpected(folder.error());
-  const auto driven = driven_lines(*folder);
+  const auto driven = files::driven_lines(*folder);
   const auto lines =
       driven && *driven ? Result<std::vector<LineSettings>>(**driven) : lines_of_file(file);
   if (!lines) return tl::unexpected(lines.error());
@@ -52,7 +52,7 @@ Result<std::string> set_safe(const fs::path& file) {
     }
   }
   if (!errors.empty()) return fail(errors);
-  forget_driven_lines(*folder);
+  files::forget_driven_lines(*folder);
   return text.empty() ? "the configuration has no output\n" : text;
 }
 
@@ -72,7 +72,7 @@ CliResult<std::string> lines_command(const Arguments& arguments) {
                     text_option(config)}}},
       [&](const auto&) -> CliResult<std::string> {
         if (!safe) return usage_error("say --safe");
-        return set_safe(site_file(config));
+        return set_safe(files::site_file(config));
       });
 }
 

@@ -23,7 +23,7 @@ struct ListOptions {
   bool appliances = false;
   std::optional<double> seconds{};
   int domain = 0;
-  std::optional<SecuritySettings> security{};
+  std::optional<dds::SecuritySettings> security{};
 };
 
 std::vector<Option> declare(ListOptions& o) {

@@ -72,7 +72,7 @@ CliResult<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
       return usage_error("--rig and " + std::string(name) + " are given; the rig states it");
   }
   if (auto good = check_choice(o.cameras); !good) return tl::unexpected(good.error());
-  const auto rig = load_rig(o.rig);
+  const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   std::vector<ChosenCamera> chosen;
   for (const std::string& text : o.cameras) {

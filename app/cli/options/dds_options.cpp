@@ -18,11 +18,11 @@ Option prefix_option(std::string& prefix) {
           text_option(prefix)};
 }
 
-Option security_option(std::optional<SecuritySettings>& security) {
+Option security_option(std::optional<dds::SecuritySettings>& security) {
   return {"security", 0, "FOLDER",
           "keys from `orbwatch dds-keys`, where orbwatchd has\n[dds.security]",
           [&security](const std::string& v) -> Result<> {
-            security = SecuritySettings{v};
+            security = dds::SecuritySettings{v};
             return {};
           }};
 }

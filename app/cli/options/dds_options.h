@@ -15,7 +15,7 @@ Option domain_option(int& domain);
 Option prefix_option(std::string& prefix);
 
 /// Option for the keys of an orbwatchd with [dds.security].
-Option security_option(std::optional<SecuritySettings>& security);
+Option security_option(std::optional<dds::SecuritySettings>& security);
 
 /// Option for the limit of the wait for an answer.
 Option timeout_option(std::chrono::milliseconds& timeout);

@@ -8,8 +8,9 @@ namespace orbwatch::app::cli {
 std::vector<Option> view_options(optics::ViewSpec& view) {
   return {
       {"view", 0, "KIND",
-       joined(kViewKinds) + "\n(default perspective); ball is the first camera's own picture of it",
-       word_option("view", kViewKinds, view.kind)},
+       joined(pipeline::kViewKinds) +
+           "\n(default perspective); ball is the first camera's own picture of it",
+       word_option("view", pipeline::kViewKinds, view.kind)},
       {"yaw", 0, "DEG", "of the view, positive to the right",
        number_option("yaw", view.orientation.yaw)},
       {"pitch", 0, "DEG", "positive up", number_option("pitch", view.orientation.pitch)},

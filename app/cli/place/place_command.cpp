@@ -58,7 +58,7 @@ constexpr const char* kPlaceNotes =
 CliResult<std::string> place(const PlaceOptions& o) {
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (o.cameras.empty()) return usage_error("--camera is missing");
-  const auto rig = load_rig(o.rig);
+  const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   Progress progress;
   const auto request = place_request(o, *rig, progress);
@@ -70,7 +70,7 @@ CliResult<std::string> place(const PlaceOptions& o) {
   if (!o.output.empty()) {
     const auto written =
         rig_alignment(*request, *placement).and_then([&](const RigAlignment& alignment) {
-          return write_aligned_rig(o.rig, alignment, o.output);
+          return files::write_aligned_rig(o.rig, alignment, o.output);
         });
     if (!written) return tl::unexpected(written.error());
   }

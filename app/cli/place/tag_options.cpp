@@ -47,7 +47,7 @@ Result<PrintedTag> parse_tag(const std::string& text) {
 }
 
 Result<std::vector<PrintedTag>> read_tags(const std::filesystem::path& file) {
-  TextFiles files;
+  files::TextFiles files;
   const auto text = files.read(file, "a list of tags");
   if (!text) return tl::unexpected(text.error());
   std::vector<PrintedTag> tags;

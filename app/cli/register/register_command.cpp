@@ -96,7 +96,7 @@ Result<RegistrationSettings> settings_for(const RegisterOptions& o, const NamedP
 CliResult<std::string> register_cameras(const RegisterOptions& o, const std::string& first,
                                         const std::string& second) {
   if (o.rig.empty()) return usage_error("--rig is missing");
-  const auto rig = load_rig(o.rig);
+  const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto a = read_named_pictures(first);
   if (!a) return tl::unexpected(a.error());
@@ -115,7 +115,8 @@ CliResult<std::string> register_cameras(const RegisterOptions& o, const std::str
   progress.erase();
   if (!found) return fail(b->name + " on " + a->name + ": " + found.error().message);
   if (!o.out.empty()) {
-    const auto written = write_aligned_rig(o.rig, {.cameras = {found->proposal.alignment}}, o.out);
+    const auto written =
+        files::write_aligned_rig(o.rig, {.cameras = {found->proposal.alignment}}, o.out);
     if (!written) return tl::unexpected(written.error());
   }
   const RegisteredCamera registered{a->name, b->name, found->found};

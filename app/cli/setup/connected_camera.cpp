@@ -72,11 +72,11 @@ void add_connected(bool has_sensors, std::vector<CameraSource>& sources) {
 
 Result<CameraSource> camera_source(const std::string& word) {
   const std::size_t equals = word.find('=');
-  const bool is_named = equals != std::string::npos && is_plain_name(word.substr(0, equals));
+  const bool is_named = equals != std::string::npos && files::is_plain_name(word.substr(0, equals));
   CameraSource source{is_named ? word.substr(0, equals) : "", {}};
   const std::string place = is_named ? word.substr(equals + 1) : word;
   bool is_found = false;
-  for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
+  files::for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
     if (is_found || !is_place_of<Settings>(place)) return;
     is_found = true;
     if constexpr (!Settings::kFacts.address_key.empty())
@@ -90,11 +90,11 @@ Result<CameraSource> camera_source(const std::string& word) {
 Result<std::vector<CameraSource>> connected_cameras() {
   std::vector<CameraSource> sources;
   // Board sensors first: their bare receivers are V4L2 devices, too.
-  for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
+  files::for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
     if constexpr (Settings::kFacts.has_board_sensors) add_connected<Settings>(false, sources);
   });
   const bool has_sensors = !sources.empty();
-  for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
+  files::for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
     if constexpr (!Settings::kFacts.has_board_sensors)
       add_connected<Settings>(has_sensors, sources);
   });
@@ -102,13 +102,13 @@ Result<std::vector<CameraSource>> connected_cameras() {
   return fail("no camera is connected; name pictures by --camera IMAGE, or see `orbwatch list`");
 }
 
-std::string back_end_text(const BackEndSettings& back_end) {
+std::string back_end_text(const files::BackEndSettings& back_end) {
   const std::string name(std::visit([](const auto& settings) { return settings.kName; }, back_end));
-  const std::string head = "back_end = " + toml_string(name) + "\n";
-  const std::string key(facts_of(back_end).address_key);
+  const std::string head = "back_end = " + files::toml_string(name) + "\n";
+  const std::string key(files::facts_of(back_end).address_key);
   if (key.empty()) return head;
-  return head + "\n[camera." + name + "]\n" + key + " = " + toml_string(address_of(back_end)) +
-         "\n";
+  return head + "\n[camera." + name + "]\n" + key + " = " +
+         files::toml_string(files::address_of(back_end)) + "\n";
 }
 
 }  // namespace orbwatch::app::cli

@@ -12,7 +12,7 @@ namespace orbwatch::app::cli {
 /// Source of a camera's pictures, and its name, if that is known.
 struct CameraSource {
   std::string name;
-  BackEndSettings back_end;
+  files::BackEndSettings back_end;
 };
 
 /// `word` as [NAME=]SOURCE: a folder of pictures, a picture or a video, which are replayed; a V4L2
@@ -25,6 +25,6 @@ Result<CameraSource> camera_source(const std::string& word);
 Result<std::vector<CameraSource>> connected_cameras();
 
 /// The lines of a site file that state the back-end of a camera.
-std::string back_end_text(const BackEndSettings& back_end);
+std::string back_end_text(const files::BackEndSettings& back_end);
 
 }  // namespace orbwatch::app::cli

@@ -18,7 +18,7 @@ namespace orbwatch::app::cli {
 /// A camera on its way into a rig.
 struct SetupCamera {
   std::string name;
-  BackEndSettings back_end;
+  files::BackEndSettings back_end;
   std::filesystem::path calibration;  ///< empty: none
   std::optional<optics::Intrinsics> lens;
   std::optional<optics::Pose> pose;

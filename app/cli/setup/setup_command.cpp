@@ -76,10 +76,10 @@ Result<> record_cameras(const SetupOptions& o, Setup& setup, Progress& progress)
   if (!found) return tl::unexpected(found.error());
   std::vector<std::unique_ptr<hal::Camera>> cameras;
   for (const CameraSource& source : *found) {
-    CameraSettings settings;
+    files::CameraSettings settings;
     settings.name = source.name.empty() ? "camera" : source.name;
     settings.back_end = source.back_end;
-    cameras.push_back(make_camera(settings, nullptr));
+    cameras.push_back(daemon::make_camera(settings, nullptr));
   }
   progress.begin("recording");
   auto records = record(cameras, kPictures, kPatience);

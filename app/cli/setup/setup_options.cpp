@@ -15,7 +15,7 @@ namespace {
 /// `word` as NAME=VALUE; without a name, `otherwise`.
 std::pair<std::string, std::string> named(const std::string& word, const std::string& otherwise) {
   const std::size_t equals = word.find('=');
-  if (equals == std::string::npos || !is_plain_name(word.substr(0, equals))) {
+  if (equals == std::string::npos || !files::is_plain_name(word.substr(0, equals))) {
     return {otherwise, word};
   }
   return {word.substr(0, equals), word.substr(equals + 1)};
@@ -56,7 +56,7 @@ CliResult<SetupCamera*> camera_of(Setup& setup, const char* option, const std::s
 }
 
 CliResult<> read_calibration_of(SetupCamera& camera, const std::string& file) {
-  TextFiles files;
+  files::TextFiles files;
   const auto lens = read_calibration(file, files);
   if (!lens) return tl::unexpected(lens.error());
   const hal::StreamFormat& format = camera.record.format;

@@ -26,10 +26,11 @@ bool is_thermal(const SetupCamera& camera) {
 
 std::string camera_text(const SetupCamera& camera) {
   const hal::StreamFormat& format = camera.record.format;
-  std::string text = "\n[[camera]]\n" + toml_line("name", toml_string(camera.name)) +
-                     toml_line("width", std::to_string(format.width)) +
-                     toml_line("height", std::to_string(format.height));
-  if (format.frame_rate > 0) text += toml_line("frame_rate", toml_number(format.frame_rate));
+  std::string text = "\n[[camera]]\n" + files::toml_line("name", files::toml_string(camera.name)) +
+                     files::toml_line("width", std::to_string(format.width)) +
+                     files::toml_line("height", std::to_string(format.height));
+  if (format.frame_rate > 0)
+    text += files::toml_line("frame_rate", files::toml_number(format.frame_rate));
   if (is_thermal(camera)) {
     text +=
         "# kelvin_per_count = 0.04       # of the camera's data sheet, if it is radiometric\n"
@@ -39,35 +40,39 @@ std::string camera_text(const SetupCamera& camera) {
 }
 
 std::string box_text(const optics::Box& box) {
-  return toml_line("low", toml_vector(box.low)) + toml_line("high", toml_vector(box.high));
+  return files::toml_line("low", files::toml_vector(box.low)) +
+         files::toml_line("high", files::toml_vector(box.high));
 }
 
 std::string lens_text(const SetupCamera& camera) {
   if (camera.calibration.empty()) return "";
-  return "\n[camera.intrinsics]\n" + toml_line("file", toml_string(camera.name + ".yaml"));
+  return "\n[camera.intrinsics]\n" +
+         files::toml_line("file", files::toml_string(camera.name + ".yaml"));
 }
 
 std::string place_text(const Setup& setup, const SetupCamera& camera) {
-  if (camera.pose) return "\n[camera.pose]\n" + toml_lines(toml_values(*camera.pose));
+  if (camera.pose) return "\n[camera.pose]\n" + toml_lines(files::toml_values(*camera.pose));
   std::string text = "\n[camera.outline]               # drawn into " + camera.name + ".png\n" +
-                     toml_lines(toml_values(camera.ball.outline));
+                     toml_lines(files::toml_values(camera.ball.outline));
   if (!camera.lens) {
     const double distance =
         camera.distance ? *camera.distance / setup.ball_radius : kAssumedDistance;
-    text += toml_line("distance", toml_number(distance) +
-                                      (camera.distance ? "" : "                   # assumed"));
+    text +=
+        files::toml_line("distance", files::toml_number(distance) +
+                                         (camera.distance ? "" : "                   # assumed"));
   }
   if (!is_placed(setup, camera)) {
-    return text + toml_line("registered",
+    return text +
+           files::toml_line("registered",
                             "false              # nor is it shown beside others until it is");
   }
-  return text + toml_line("rotation_matrix", toml_matrix(camera.registration));
+  return text + files::toml_line("rotation_matrix", files::toml_matrix(camera.registration));
 }
 
 std::string source_texts(const Setup& setup) {
   std::string text;
   for (const SetupCamera& camera : setup.cameras) {
-    text += "\n[[view.source]]\n" + toml_line("camera", toml_string(camera.name));
+    text += "\n[[view.source]]\n" + files::toml_line("camera", files::toml_string(camera.name));
     if (is_thermal(camera) && setup.cameras.size() > 1) {
       text += "weight = 0.5\ncolour_map = \"inferno\"\n";
     }
@@ -79,9 +84,9 @@ std::string site_text(const Setup& setup) {
   std::string text =
       "# A site, as `orbwatch setup` wrote it. `orbwatch describe config` explains every key;\n"
       "# `orbwatchd --config FILE --check` checks all files.\n" +
-      comments(setup.missing) + "\n" + toml_line("rig", toml_string(kRigFile)) +
+      comments(setup.missing) + "\n" + files::toml_line("rig", files::toml_string(kRigFile)) +
       "\n[[recipe]]                       # what is measured\nnumber = 1\n" +
-      toml_line("file", toml_string(kRecipeFile)) +
+      files::toml_line("file", files::toml_string(kRecipeFile)) +
       "\n[modbus]\nport = 1502\n"
       "# address = \"192.168.1.10\"       # the machine network only; Modbus has no passwords\n"
       "# writers = [\"192.168.1.2\"]      # the PLC; without it only this computer may write\n"
@@ -98,21 +103,21 @@ std::string rig_text(const Setup& setup) {
   std::string text =
       "# Where cameras, ball and machine stand, as `orbwatch setup` found it. `orbwatch describe "
       "rig`\n# explains every key.\n\n[ball]\n" +
-      toml_line("centre", toml_vector(rig.ball.centre)) +
-      toml_line("radius", toml_number(rig.ball.radius));
+      files::toml_line("centre", files::toml_vector(rig.ball.centre)) +
+      files::toml_line("radius", files::toml_number(rig.ball.radius));
   if (rig.scene.room == optics::Scene::Room::Box) {
     text += "\n[scene]\nroom = \"box\"\n" + box_text(rig.scene.walls);
   }
   for (const NamedBox& obstacle : setup.obstacles) {
     text += "\n[[scene.obstacle]]\n" +
             (obstacle.remark.empty() ? "" : "# " + obstacle.remark + "\n") +
-            toml_line("name", toml_string(obstacle.name)) + box_text(obstacle.box);
+            files::toml_line("name", files::toml_string(obstacle.name)) + box_text(obstacle.box);
   }
   for (const SetupCamera& camera : setup.cameras) {
     const hal::StreamFormat& format = camera.record.format;
-    text += "\n[[camera]]\n" + toml_line("name", toml_string(camera.name)) +
-            toml_line("width", std::to_string(format.width)) +
-            toml_line("height", std::to_string(format.height)) + lens_text(camera) +
+    text += "\n[[camera]]\n" + files::toml_line("name", files::toml_string(camera.name)) +
+            files::toml_line("width", std::to_string(format.width)) +
+            files::toml_line("height", std::to_string(format.height)) + lens_text(camera) +
             place_text(setup, camera);
   }
   return text;
@@ -125,7 +130,7 @@ std::string recipe_text(const Setup& setup) {
   const SetupCamera& measured = thermal == setup.cameras.end() ? setup.cameras.front() : *thermal;
   return "# The brightest place in front of the ball. `orbwatch describe recipe` explains every "
          "key.\n\nname = \"brightest\"\n\n[[view]]\nname = \"front\"\n" +
-         toml_line("measured", toml_string(measured.name)) +
+         files::toml_line("measured", files::toml_string(measured.name)) +
          "h_fov = 100\nwidth = 960\nheight = 540\n" + source_texts(setup) +
          "\n[[region]]\nname = \"front\"\nview = \"front\"\n"
          "hot_spot_threshold = 95          # percent of full scale\n";
@@ -138,7 +143,7 @@ Result<> write_site(const Setup& setup, const std::filesystem::path& folder) {
                                  camera.record.pictures.front().picture, camera.ball.outline);
     if (written && camera.lens) {
       written = write_calibration(folder / (camera.name + ".yaml"), *camera.lens, camera.name,
-                                  CalibrationFormat::Ros);
+                                  files::CalibrationFormat::Ros);
     }
     if (!written) return written;
   }
@@ -150,8 +155,8 @@ Result<> write_site(const Setup& setup, const std::filesystem::path& folder) {
 
 /// Checks that the daemon would run it.
 Result<> check_written(const std::filesystem::path& folder) {
-  return resolve(folder / kSiteFile).and_then([](const Resolved& site) {
-    return check_site(site, Dates::Ignored);
+  return files::resolve(folder / kSiteFile).and_then([](const files::Resolved& site) {
+    return daemon::check_site(site, Dates::Ignored);
   });
 }
 

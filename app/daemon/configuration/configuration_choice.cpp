@@ -10,11 +10,12 @@
 #include "app/log.h"
 #include "app/state/state_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
-Result<Resolved> resolve_and_check(const std::filesystem::path& file, const FileTexts& instead) {
-  return resolve(file, instead).and_then([](Resolved site) {
+Result<files::Resolved> resolve_and_check(const std::filesystem::path& file,
+                                          const files::FileTexts& instead) {
+  return files::resolve(file, instead).and_then([](files::Resolved site) {
     return check_view_memory(site)
         .and_then([&] { return check_keys(site, Dates::Ignored); })
         .map([&] { return std::move(site); });
@@ -22,19 +23,19 @@ Result<Resolved> resolve_and_check(const std::filesystem::path& file, const File
 }
 
 /// The one file of alignments as it will be with another entry.
-Result<FileTexts> with_accepted(FileTexts calibration, CalibrationEntry entry) {
+Result<files::FileTexts> with_accepted(files::FileTexts calibration, CalibrationEntry entry) {
   auto& [file, text] = *calibration.begin();
-  TextFiles files(calibration);
+  files::TextFiles files(calibration);
   auto entries = load_calibrations(file, files);
   if (!entries) return tl::unexpected(entries.error());
-  accept(*entries, std::move(entry));
-  text = calibrations_text(*entries);
+  files::accept(*entries, std::move(entry));
+  text = files::calibrations_text(*entries);
   return calibration;
 }
 
 /// Tells who asked for a trial.
 void report(const std::filesystem::path& folder, const std::string& refusal) {
-  if (const auto told = report_trial(folder, refusal); !told) {
+  if (const auto told = files::report_trial(folder, refusal); !told) {
     log_line(LogLevel::Warning,
              "the report on the new configuration is not written: " + told.error().message);
   }
@@ -43,9 +44,9 @@ void report(const std::filesystem::path& folder, const std::string& refusal) {
 /// Nullopt: none was requested for this file, or it is wrong, which is logged.
 std::optional<Chosen> choose_trial(const std::filesystem::path& folder,
                                    const std::filesystem::path& file) {
-  auto trial = take_trial(folder);
+  auto trial = files::take_trial(folder);
   if (trial && !*trial) return std::nullopt;
-  Result<Resolved> site = fail("it is for another configuration file");
+  Result<files::Resolved> site = fail("it is for another configuration file");
   if (!trial) {
     site = tl::unexpected(trial.error());
   } else if ((*trial)->site == file) {
@@ -53,7 +54,7 @@ std::optional<Chosen> choose_trial(const std::filesystem::path& folder,
   }
   if (site) return Chosen{std::move(*site), {}, std::move(*trial)};
   report(folder, site.error().message);
-  end_trial(folder);
+  files::end_trial(folder);
   log_line(LogLevel::Error, "does not try the new configuration: " + site.error().message);
   return std::nullopt;
 }
@@ -62,14 +63,14 @@ std::optional<Chosen> choose_trial(const std::filesystem::path& folder,
 /// cannot be.
 std::optional<Chosen> choose_confirmed(const std::filesystem::path& folder,
                                        const std::filesystem::path& file) {
-  const auto finished = finish_confirmed(folder);
+  const auto finished = files::finish_confirmed(folder);
   if (finished) {
     if (*finished) log_line(LogLevel::Warning, "wrote the rest of a confirmed configuration");
     return std::nullopt;
   }
   const std::string why = "a confirmed configuration is not written: " + finished.error().message;
   log_line(LogLevel::Error, why);
-  const auto confirmed = confirmed_trial(folder);
+  const auto confirmed = files::confirmed_trial(folder);
   if (!confirmed || !*confirmed || (*confirmed)->site != file) return std::nullopt;
   auto site = resolve_and_check(file, (*confirmed)->texts);
   if (!site) return std::nullopt;
@@ -92,7 +93,7 @@ void take_over(const std::filesystem::path& folder, const std::filesystem::path&
 Result<Chosen> choose_texts(const std::optional<std::filesystem::path>& folder,
                             const std::filesystem::path& file) {
   if (folder) {
-    if (end_trial(*folder)) {
+    if (files::end_trial(*folder)) {
       log_line(LogLevel::Warning, "the new configuration was not confirmed: the files count again");
     }
     if (auto confirmed = choose_confirmed(*folder, file)) return std::move(*confirmed);
@@ -101,7 +102,7 @@ Result<Chosen> choose_texts(const std::optional<std::filesystem::path>& folder,
   auto site = resolve_and_check(file, {});
   if (site) return Chosen{std::move(*site), {}, {}};
   if (!folder) return tl::unexpected(site.error());
-  auto last_good = resolve_last_good(*folder, file);
+  auto last_good = files::resolve_last_good(*folder, file);
   if (!last_good) return fail(site.error().message + "; " + last_good.error().message);
   log_line(LogLevel::Error, site.error().message + "; the last good configuration runs");
   return Chosen{std::move(*last_good), site.error().message, {}};
@@ -123,8 +124,8 @@ Result<Chosen> choose(const std::filesystem::path& file) {
 }
 
 bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  if (!is_trial_requested(folder)) return false;
-  const auto trial = requested_trial(folder);
+  if (!files::is_trial_requested(folder)) return false;
+  const auto trial = files::requested_trial(folder);
   if (trial && !*trial) return false;
   if (trial && (*trial)->site == file) return true;
   const std::string why = trial
@@ -133,19 +134,19 @@ bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::pa
                               : trial.error().message;
   report(folder, why);
   log_line(LogLevel::Error, "does not try the new configuration: " + why);
-  drop_request(folder);
+  files::drop_request(folder);
   return false;
 }
 
 Result<> check_restart(const std::filesystem::path& file) {
-  return resolve(file).and_then(
-      [](const Resolved& site) { return check_site(site, Dates::Ignored); });
+  return files::resolve(file).and_then(
+      [](const files::Resolved& site) { return check_site(site, Dates::Ignored); });
 }
 
-Result<> check_acceptance(const std::filesystem::path& file, const Resolved& running,
+Result<> check_acceptance(const std::filesystem::path& file, const files::Resolved& running,
                           CalibrationEntry entry) {
   if (const auto folder = service_folder()) {
-    const auto trial = running_trial(*folder);
+    const auto trial = files::running_trial(*folder);
     if (!trial) return tl::unexpected(trial.error());
     if (*trial) {
       return fail(
@@ -154,7 +155,7 @@ Result<> check_acceptance(const std::filesystem::path& file, const Resolved& run
     }
   }
   // A damaged file of alignments is written anew when one is accepted.
-  const auto next = resolve(file, running.calibration);
+  const auto next = files::resolve(file, running.calibration);
   if (!next) {
     return fail("orbwatchd cannot restart with its files; correct them first: " +
                 next.error().message);
@@ -167,8 +168,8 @@ Result<> check_acceptance(const std::filesystem::path& file, const Resolved& run
   }
   entry.rig = running.rig_checksum;
   return with_accepted(running.calibration, std::move(entry))
-      .and_then([&](const FileTexts& accepted) { return resolve(file, accepted); })
-      .and_then([](const Resolved& site) { return check_site(site, Dates::Ignored); })
+      .and_then([&](const files::FileTexts& accepted) { return files::resolve(file, accepted); })
+      .and_then([](const files::Resolved& site) { return check_site(site, Dates::Ignored); })
       .map_error([](const Error& error) {
         return Error{"orbwatchd cannot run with it: " + error.message};
       });
@@ -183,4 +184,4 @@ void keep(const Chosen& chosen) {
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

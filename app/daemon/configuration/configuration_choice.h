@@ -8,13 +8,13 @@
 #include "app/files/resolve.h"
 #include "app/files/runtime/trial.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// A configuration and why it runs.
 struct Chosen {
-  Resolved site;
-  std::string refusal;         ///< of the files, whose last good version this is; empty: of none
-  std::optional<Trial> trial;  ///< this runs in place of the files until it is confirmed
+  files::Resolved site;
+  std::string refusal;  ///< of the files, whose last good version this is; empty: of none
+  std::optional<files::Trial> trial;  ///< this runs in place of the files until it is confirmed
 };
 
 /// Where a service keeps trials and the last good configuration; nullopt: this is no service, it
@@ -39,10 +39,10 @@ Result<> check_restart(const std::filesystem::path& file);
 /// `file` or as it, would be in force after a restart. Error: why not, and what to do first: a
 /// trial runs, which the restart would end; the files are wrong; the rig that they state is another
 /// one; the site cannot run with it.
-Result<> check_acceptance(const std::filesystem::path& file, const Resolved& running,
+Result<> check_acceptance(const std::filesystem::path& file, const files::Resolved& running,
                           CalibrationEntry entry);
 
 /// Notes a start: keeps the configuration as good, or tells who asked for a trial that it runs.
 void keep(const Chosen& chosen);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -17,12 +17,12 @@
 #include "app/files/recipe/recipe_edit.h"
 #include "app/files/text/file_version.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_of(const Resolved& site) {
+std::vector<fs::path> files_of(const files::Resolved& site) {
   std::vector<fs::path> files;
   for (const auto& [file, text] : site.texts) files.push_back(file);
   return files;
@@ -39,7 +39,7 @@ bool may_be_changed(const fs::path& file, const fs::path& site) {
 /// Eight hexadecimal digits.
 std::string checksum_digits(const std::string& text) {
   char digits[16];
-  std::snprintf(digits, sizeof digits, "%08x", checksum_of(text));
+  std::snprintf(digits, sizeof digits, "%08x", files::checksum_of(text));
   return digits;
 }
 
@@ -54,7 +54,7 @@ Result<std::uint32_t> parse_checksum(const std::string& name, const std::string&
 
 /// The file's version with the checksum of this very text, which was read before.
 ConfigurationFiles::Version version_of_text(const fs::path& file, const std::string& text) {
-  FileVersion now = version_of(file);
+  files::FileVersion now = files::version_of(file);
   return {checksum_digits(text), std::move(now.time), std::move(now.account)};
 }
 
@@ -75,7 +75,7 @@ InstalledConfiguration::InstalledConfiguration(fs::path file, const Chosen& chos
 std::set<fs::path> InstalledConfiguration::named_files() const {
   std::set<fs::path> all(files_.begin(), files_.end());
   all.insert(file_);
-  if (const auto present = resolve(file_)) {
+  if (const auto present = files::resolve(file_)) {
     for (const fs::path& file : files_of(*present)) all.insert(file);
   }
   return all;
@@ -85,7 +85,7 @@ std::set<fs::path> InstalledConfiguration::named_files() const {
 std::vector<fs::path> InstalledConfiguration::state_folders() const {
   std::vector<fs::path> folders;
   if (folder_) folders.push_back(*folder_);
-  if (const auto site = read_site(file_); site && !site->state_folder.empty()) {
+  if (const auto site = files::read_site(file_); site && !site->state_folder.empty()) {
     folders.push_back(site->state_folder);
   }
   return folders;
@@ -98,7 +98,7 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
       state.outside[name_of(file)] = kPrivateText;
       continue;
     }
-    TextFiles files;
+    files::TextFiles files;
     auto text = files.read(file, "a file of the configuration");
     std::error_code none;                                    // `text` says what is wrong
     const bool is_to_be = !fs::exists(file, none) && !none;  // by a trial
@@ -108,8 +108,8 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
     (may_be_changed(file, file_) ? state.files : state.outside)[name_of(file)] = std::move(*text);
   }
   if (!folder_) return state;
-  auto trial = running_trial(*folder_);
-  if (trial && !*trial) trial = requested_trial(*folder_);
+  auto trial = files::running_trial(*folder_);
+  if (trial && !*trial) trial = files::requested_trial(*folder_);
   if (!trial) return tl::unexpected(trial.error());
   if (!*trial) return state;
   state.trial.emplace();
@@ -123,9 +123,9 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
 
 Result<ConfigurationFiles::Edit> InstalledConfiguration::with_changed_recipe(
     int number, const RecipeChange& change) const {
-  const auto site = read_site(file_);
+  const auto site = files::read_site(file_);
   if (!site) return tl::unexpected(site.error());
-  const auto recipe = std::ranges::find(site->recipes, number, &RecipeFile::number);
+  const auto recipe = std::ranges::find(site->recipes, number, &files::RecipeFile::number);
   if (recipe == site->recipes.end()) {
     return fail(file_.string() + ": names no recipe " + std::to_string(number));
   }
@@ -134,30 +134,32 @@ Result<ConfigurationFiles::Edit> InstalledConfiguration::with_changed_recipe(
     return fail(file.string() +
                 ": is outside of the configuration's folder; change it on the board");
   }
-  TextFiles files;
+  files::TextFiles files;
   const auto present = files.read(file, "a TOML file");
   if (!present) return tl::unexpected(present.error());
   const std::string name = name_of(file);
-  return changed_recipe(*present, name, change).map([&](const std::string& text) {
+  return files::changed_recipe(*present, name, change).map([&](const std::string& text) {
     return Edit{{{name, text}}, {{name, checksum_digits(*present)}}};
   });
 }
 
 Result<ConfigurationFiles::Change> InstalledConfiguration::check(const Texts& texts) const {
   return placed(texts)
-      .and_then([this](const FileTexts& there) { return checked_trial(file_, there, kUsualTrial); })
-      .map([this](const Trial& trial) { return change_of(trial); });
+      .and_then([this](const files::FileTexts& there) {
+        return checked_trial(file_, there, kUsualTrial);
+      })
+      .map([this](const files::Trial& trial) { return change_of(trial); });
 }
 
 Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Edit& edit, int seconds) {
   const auto folder = trial_folder();
   if (!folder) return tl::unexpected(folder.error());
-  const auto running = running_trial(*folder);
+  const auto running = files::running_trial(*folder);
   if (!running) return tl::unexpected(running.error());
-  if (*running || is_trial_requested(*folder)) {
+  if (*running || files::is_trial_requested(*folder)) {
     return fail("another new configuration waits for its confirmation: confirm or revert it first");
   }
-  if (const auto finished = finish_confirmed(*folder); !finished) {
+  if (const auto finished = files::finish_confirmed(*folder); !finished) {
     return tl::unexpected(finished.error());
   }
   const auto there = placed(edit.texts);
@@ -178,7 +180,7 @@ Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Edit& e
 
 Result<std::vector<std::string>> InstalledConfiguration::confirm() {
   return trial_folder()
-      .and_then([](const fs::path& folder) { return confirm_trial(folder); })
+      .and_then([](const fs::path& folder) { return files::confirm_trial(folder); })
       .map([this](const std::vector<fs::path>& written) {
         std::vector<std::string> names;
         names.reserve(written.size());
@@ -188,15 +190,16 @@ Result<std::vector<std::string>> InstalledConfiguration::confirm() {
 }
 
 Result<> InstalledConfiguration::revert() {
-  return trial_folder().and_then([](const fs::path& folder) { return cancel_trial(folder); });
+  return trial_folder().and_then(
+      [](const fs::path& folder) { return files::cancel_trial(folder); });
 }
 
 /// By their places beside the configuration file.
-Result<FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
+Result<files::FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
   if (texts.empty()) return fail("no texts were sent");
   const std::set<fs::path> named = named_files();
   const std::vector<fs::path> state = state_folders();
-  FileTexts there;
+  files::FileTexts there;
   for (const auto& [name, text] : texts) {
     const fs::path file = file_.parent_path() / name;
     // A file has one name here, by which the desk knows the one that is guarded.
@@ -212,8 +215,8 @@ Result<FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
   return there;
 }
 
-Result<FileChecksums> InstalledConfiguration::checksums_in(const Basis& based_on) const {
-  FileChecksums checksums;
+Result<files::FileChecksums> InstalledConfiguration::checksums_in(const Basis& based_on) const {
+  files::FileChecksums checksums;
   for (const auto& [name, digits] : based_on) {
     const auto checksum = parse_checksum(name, digits);
     if (!checksum) return tl::unexpected(checksum.error());
@@ -229,7 +232,7 @@ Result<fs::path> InstalledConfiguration::trial_folder() const {
       "change the files and send the command restart");
 }
 
-ConfigurationFiles::Change InstalledConfiguration::change_of(const Trial& trial) const {
+ConfigurationFiles::Change InstalledConfiguration::change_of(const files::Trial& trial) const {
   Change change;
   for (const auto& [file, lines] : differences_from_files(trial.texts)) {
     change.files.push_back(name_of(file));
@@ -242,4 +245,4 @@ std::string InstalledConfiguration::name_of(const fs::path& file) const {
   return name_beside(file_, file).value_or(file.string());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

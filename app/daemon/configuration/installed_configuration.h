@@ -13,7 +13,7 @@
 #include "app/model/configuration/configuration_files.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// The files that this daemon was started with.
 class InstalledConfiguration final : public ConfigurationFiles {
@@ -35,10 +35,10 @@ class InstalledConfiguration final : public ConfigurationFiles {
   /// Files that run, and those that the configuration on the disk names.
   std::set<std::filesystem::path> named_files() const;
   std::vector<std::filesystem::path> state_folders() const;
-  Result<FileTexts> placed(const Texts& texts) const;
-  Result<FileChecksums> checksums_in(const Basis& based_on) const;
+  Result<files::FileTexts> placed(const Texts& texts) const;
+  Result<files::FileChecksums> checksums_in(const Basis& based_on) const;
   Result<std::filesystem::path> trial_folder() const;
-  Change change_of(const Trial& trial) const;
+  Change change_of(const files::Trial& trial) const;
   std::string name_of(const std::filesystem::path& file) const;
 
   const std::filesystem::path file_;
@@ -48,4 +48,4 @@ class InstalledConfiguration final : public ConfigurationFiles {
   std::atomic<hal::TimePoint> trial_end_{hal::TimePoint{}};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -6,7 +6,7 @@
 #include "app/files/resolve.h"
 #include "app/files/text/text_difference.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 namespace fs = std::filesystem;
 
@@ -20,10 +20,11 @@ std::optional<std::string> name_beside(const fs::path& site, const fs::path& fil
   return name.string();
 }
 
-Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int seconds,
-                            FileChecksums based_on) {
-  based_on.merge(checksums_of(texts));  // before the rest is read and checked, which takes time
-  const auto resolved = resolve(site, texts);
+Result<files::Trial> checked_trial(const fs::path& site, const files::FileTexts& texts, int seconds,
+                                   files::FileChecksums based_on) {
+  based_on.merge(
+      files::checksums_of(texts));  // before the rest is read and checked, which takes time
+  const auto resolved = files::resolve(site, texts);
   if (!resolved) return tl::unexpected(resolved.error());
   if (const auto checked = check_site(*resolved, Dates::Checked); !checked) {
     return tl::unexpected(checked.error());
@@ -33,27 +34,27 @@ Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int se
       return fail(file.string() + ": no file of the configuration names it");
     }
   }
-  Trial trial{site, {}, seconds};
+  files::Trial trial{site, {}, seconds};
   for (const auto& [file, text] : resolved->texts) {
     // A secret that the configuration names stays where it is, and is not repeated anywhere.
     const bool is_kept = texts.contains(file) || !is_private(file);
     if (!is_kept || !name_beside(site, file)) continue;
     trial.texts[file] = text;
     const auto replaced = based_on.find(file);
-    trial.based_on[file] = replaced == based_on.end() ? checksum_of(text) : replaced->second;
+    trial.based_on[file] = replaced == based_on.end() ? files::checksum_of(text) : replaced->second;
   }
   return trial;
 }
 
-std::map<fs::path, std::string> differences_from_files(const FileTexts& texts) {
+std::map<fs::path, std::string> differences_from_files(const files::FileTexts& texts) {
   std::map<fs::path, std::string> all;
   for (const auto& [file, text] : texts) {
-    TextFiles files;
+    files::TextFiles files;
     const auto old = files.read(file, "a text file");
     const bool is_same = old && *old == text;
-    if (!is_same) all[file] = text_difference(old.value_or(""), text, file.string());
+    if (!is_same) all[file] = files::text_difference(old.value_or(""), text, file.string());
   }
   return all;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

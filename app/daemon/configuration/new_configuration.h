@@ -8,7 +8,7 @@
 
 #include "app/files/runtime/trial.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// What a file is called beside the configuration file `site`: its path from there. Nullopt: it is
 /// outside of that folder.
@@ -19,10 +19,10 @@ std::optional<std::string> name_beside(const std::filesystem::path& site,
 /// checked as it will stand there, as by `orbwatchd --check`. Of the files that stay it has those
 /// that are not private. The texts are based on the files of now, except for those in `based_on`.
 /// Errors: also a text that no file names.
-Result<Trial> checked_trial(const std::filesystem::path& site, const FileTexts& texts, int seconds,
-                            FileChecksums based_on = {});
+Result<files::Trial> checked_trial(const std::filesystem::path& site, const files::FileTexts& texts,
+                                   int seconds, files::FileChecksums based_on = {});
 
 /// By their file, the lines by which texts differ from the files, see text_difference().
-std::map<std::filesystem::path, std::string> differences_from_files(const FileTexts& texts);
+std::map<std::filesystem::path, std::string> differences_from_files(const files::FileTexts& texts);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

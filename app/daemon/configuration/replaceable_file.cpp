@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ Result<> check_replaceable(const fs::path& file, const fs::path& site,
   return check_new(file);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -7,7 +7,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// True for a file that is there and that only its owner may use, as a secret: a file of the
 /// configuration is none. Reentrant.
@@ -31,4 +31,4 @@ Result<> check_replaceable(const std::filesystem::path& file, const std::filesys
                            const std::set<std::filesystem::path>& named,
                            const std::vector<std::filesystem::path>& state);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -15,7 +15,7 @@
 #include "app/state/state_folder.h"
 #include "app/version.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 void notify_of(bool restarts) { restarts ? notify_restart() : notify_end(); }
@@ -121,4 +121,4 @@ bool ApplianceThread::abandon(bool restarts, std::chrono::milliseconds patience)
   return done->wait_for(patience);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -16,7 +16,7 @@
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// Everything from the choice of the configuration to the appliance's end, on a thread of its own:
 /// it opens cameras and interfaces and may wait for drivers, the disk and the service manager. The
@@ -67,4 +67,4 @@ class ApplianceThread {
   hal::Thread thread_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -6,7 +6,7 @@
 
 #include "app/log.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 void Attempts::add(std::string name, Attempt attempt, hal::TimePoint now) {
   const auto without_fault = [attempt = std::move(attempt)] {
@@ -55,4 +55,4 @@ bool Attempts::succeeds(Missing& missing, hal::TimePoint now) {
   return false;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -10,7 +10,7 @@
 #include "hal/fault.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// What is missing and tried again until it is there, each thing after a BackOff of its own. Its
 /// error is logged when it changes, and once that it is there. Thread-bound.
@@ -47,4 +47,4 @@ class Attempts {
   std::list<Missing> missing_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -5,7 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// Something that ends once, on another thread perhaps, and that may be waited for with a deadline,
 /// unlike the end of a thread. Thread-safe.
@@ -36,4 +36,4 @@ class Completion {
   bool is_set_ = false;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -28,7 +28,7 @@
 #include "app/version.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 constexpr const char* kHelp =
@@ -73,12 +73,13 @@ std::optional<Arguments> parse(int argc, char** argv, ExitStatus& status) {
     status = ExitStatus::WrongUsage;
   }
   // As `orbwatch configure` names it in a trial.
-  arguments.config = std::filesystem::absolute(site_file(arguments.config)).lexically_normal();
+  arguments.config =
+      std::filesystem::absolute(files::site_file(arguments.config)).lexically_normal();
   return status == ExitStatus::Done ? std::optional(arguments) : std::nullopt;
 }
 
 Result<> check(const std::filesystem::path& file) {
-  const auto site = resolve(file);
+  const auto site = files::resolve(file);
   if (!site) return tl::unexpected(site.error());
   return checked_plan(*site, Dates::Checked).map([&](const SitePlan& plan) {
     for (const std::string& line : assumptions(*site, plan)) log_line(LogLevel::Info, line);
@@ -138,7 +139,7 @@ ExitStatus main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon
 
 int main(int argc, char** argv) {
   // After start_again() the kernel calls the process "exe"; `orbwatch doctor` and people look for
@@ -146,5 +147,5 @@ int main(int argc, char** argv) {
   ::prctl(PR_SET_NAME, "orbwatchd");
   // OpenCV would share every call among all cores, the frame path's too.
   cv::setNumThreads(1);
-  return static_cast<int>(orbwatch::app::main(argc, argv));
+  return static_cast<int>(orbwatch::app::daemon::main(argc, argv));
 }

@@ -9,7 +9,7 @@
 #include "app/files/runtime/trial.h"
 #include "app/log.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Pause between two looks of a service for the request of a trial, which comes as a file.
@@ -89,15 +89,15 @@ bool RestartWatch::asks_for_restart() {
   if (!folder_) return false;
   if (is_trial_for(*folder_, file_)) return true;
   if (trial_end_.load() == hal::TimePoint::max()) return false;
-  const auto running = running_trial(*folder_);
+  const auto running = files::running_trial(*folder_);
   if (running && !*running) {
-    const auto confirmed = confirmed_trial(*folder_);
+    const auto confirmed = files::confirmed_trial(*folder_);
     if (confirmed && *confirmed) return false;  // its files are being written
     trial_end_ = hal::TimePoint::max();
-    const auto files = resolve(file_);
+    const auto files = files::resolve(file_);
     return !files || files->checksum != checksum_;
   }
   return hal::Clock::now() >= trial_end_.load();
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -14,7 +14,7 @@
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// Decides when a running daemon starts again with other files: a trial is requested, ends by its
 /// time or is cancelled, or somebody asks for it and the files permit it. On a thread of its own,
@@ -69,4 +69,4 @@ class RestartWatch {
   hal::Thread thread_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -12,11 +12,11 @@
 #include "app/state/state_folder.h"
 #include "hal/atomic_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 namespace fs = std::filesystem;
 
-void remove_leftovers(const Resolved& site) {
+void remove_leftovers(const files::Resolved& site) {
   std::set<fs::path> folders{site.state_folder};
   if (const auto service = service_folder()) folders.insert(*service);
   for (const auto& [file, text] : site.texts) folders.insert(file.parent_path());
@@ -29,12 +29,12 @@ void remove_leftovers(const Resolved& site) {
   }
 }
 
-void record_outputs(const Resolved& site) {
+void record_outputs(const files::Resolved& site) {
   auto folder = runtime_directory();
   if (!folder) folder = service_folder();
   if (!folder) return;
   const std::vector<LineSettings> lines(site.site.lines.begin(), site.site.lines.end());
-  if (const auto recorded = record_driven_lines(*folder, lines); !recorded) {
+  if (const auto recorded = files::record_driven_lines(*folder, lines); !recorded) {
     log_line(LogLevel::Warning,
              "after SIGKILL outputs are set inactive as the files say then, since those that run "
              "are not recorded: " +
@@ -42,4 +42,4 @@ void record_outputs(const Resolved& site) {
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -15,7 +15,7 @@
 #include "app/log.h"
 #include "app/service/service_manager.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Between two turns at most, and a fourth of the watchdog's period.
@@ -115,4 +115,4 @@ bool Supervision::finish(End end) {
   return false;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -14,7 +14,7 @@
 #include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// Blocks SIGTERM, SIGINT and SIGHUP for this thread and those that it starts, so that a
 /// Supervision receives them. On the main thread, before others start.
@@ -61,4 +61,4 @@ class Supervision {
   ApplianceThread appliance_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

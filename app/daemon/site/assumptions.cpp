@@ -8,11 +8,12 @@
 #include "app/model/alignment/register_advice.h"
 #include "app/model/status/status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Empty: the region states all, or nothing is assumed, for lack of a scene.
-std::string assumption_text(const RegionOfInterest& stated, const RegionPlan& region) {
+std::string assumption_text(const pipeline::RegionOfInterest& stated,
+                            const pipeline::RegionPlan& region) {
   const signals::HotSpotLimits& limits = region.settings.hot_spot_limits;
   if (!limits.need_surface()) return "";
   std::ostringstream text;
@@ -28,7 +29,7 @@ std::string assumption_text(const RegionOfInterest& stated, const RegionPlan& re
 
 }  // namespace
 
-std::vector<std::string> assumptions(const Resolved& site, const SitePlan& plan) {
+std::vector<std::string> assumptions(const files::Resolved& site, const SitePlan& plan) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     if (site.rig_camera(i).is_registered) continue;
@@ -45,4 +46,4 @@ std::vector<std::string> assumptions(const Resolved& site, const SitePlan& plan)
   return lines;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -8,30 +8,31 @@
 
 #include "app/pictures/colour_maps.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
-Result<std::unique_ptr<CompiledRecipe>> compile(const Resolved& site, const SitePlan& plan,
-                                                std::size_t recipe) {
-  return CompiledRecipe::make(plan.recipes[recipe], plan.scene).map_error([&](const Error& error) {
-    return in_recipe(site, recipe, error);
-  });
+Result<std::unique_ptr<pipeline::CompiledRecipe>> compile(const files::Resolved& site,
+                                                          const SitePlan& plan,
+                                                          std::size_t recipe) {
+  return pipeline::CompiledRecipe::make(plan.recipes[recipe], plan.scene)
+      .map_error([&](const Error& error) { return in_recipe(site, recipe, error); });
 }
 
-bool uses(const ViewPlan& view, std::size_t camera) {
-  return std::ranges::find(view.sources, camera, &ViewSource::camera) != view.sources.end();
+bool uses(const pipeline::ViewPlan& view, std::size_t camera) {
+  return std::ranges::find(view.sources, camera, &pipeline::ViewSource::camera) !=
+         view.sources.end();
 }
 
-bool uses(const RecipePlan& recipe, std::size_t camera) {
-  return std::ranges::any_of(recipe.views,
-                             [camera](const ViewPlan& view) { return uses(view, camera); });
+bool uses(const pipeline::RecipePlan& recipe, std::size_t camera) {
+  return std::ranges::any_of(
+      recipe.views, [camera](const pipeline::ViewPlan& view) { return uses(view, camera); });
 }
 
 }  // namespace
 
-Result<PipelinePlan> build(const Resolved& site, const SitePlan& plan) {
-  PipelinePlan built;
-  static_cast<PipelineSettings&>(built) = site.site.pipeline;
+Result<pipeline::PipelinePlan> build(const files::Resolved& site, const SitePlan& plan) {
+  pipeline::PipelinePlan built;
+  static_cast<pipeline::PipelineSettings&>(built) = site.site.pipeline;
   built.views = plan.views;
   for (std::size_t i = 0; i < plan.recipes.size(); ++i) {
     auto recipe = compile(site, plan, i);
@@ -52,11 +53,11 @@ Result<PipelinePlan> build(const Resolved& site, const SitePlan& plan) {
   return built;
 }
 
-Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> formats,
-                           std::size_t camera) {
+Result<pipeline::Recompiled> rebuild(const files::Resolved& site,
+                                     std::vector<hal::StreamFormat> formats, std::size_t camera) {
   auto plan = SitePlan::make(site, std::move(formats));
   if (!plan) return tl::unexpected(plan.error());
-  Recompiled recompiled;
+  pipeline::Recompiled recompiled;
   for (std::size_t i = 0; i < plan->views.size(); ++i) {
     if (uses(plan->views[i], camera)) recompiled.sources[i] = std::move(plan->views[i].sources);
   }
@@ -71,4 +72,4 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
   return recompiled;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

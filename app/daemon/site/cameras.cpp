@@ -10,16 +10,16 @@
 #include "app/daemon/site/build.h"
 #include "app/pipeline/views/view_renderer.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// What the camera is set to when it is opened, in this order.
-std::vector<ControlSettings> controls_of(const Resolved& site, std::size_t camera) {
-  const CameraSettings& settings = site.site.cameras[camera];
-  std::vector<ControlSettings> controls = settings.controls;
+std::vector<files::ControlSettings> controls_of(const files::Resolved& site, std::size_t camera) {
+  const files::CameraSettings& settings = site.site.cameras[camera];
+  std::vector<files::ControlSettings> controls = settings.controls;
   if (settings.trigger.mode == hal::TriggerMode::Software) controls.push_back({"TriggerMode", 1});
   if (site.recipes.empty()) return controls;
-  for (const CameraControl& control : site.recipes.front().controls) {
+  for (const pipeline::CameraControl& control : site.recipes.front().controls) {
     if (control.camera.index == camera) controls.push_back({control.name, control.value});
   }
   return controls;
@@ -27,9 +27,9 @@ std::vector<ControlSettings> controls_of(const Resolved& site, std::size_t camer
 
 /// A triggered camera's frames queue. Of several sizes, such as the picture with lines of
 /// telemetry, only the rig's can be used.
-hal::StreamRequest stream_of(const CameraSettings& settings, const optics::RigCamera& rig) {
+hal::StreamRequest stream_of(const files::CameraSettings& settings, const optics::RigCamera& rig) {
   hal::StreamRequest stream = settings.stream;
-  if (facts_of(settings.back_end).takes_size_of_rig) {
+  if (files::facts_of(settings.back_end).takes_size_of_rig) {
     if (stream.width == 0) stream.width = rig.width;
     if (stream.height == 0) stream.height = rig.height;
   }
@@ -39,14 +39,14 @@ hal::StreamRequest stream_of(const CameraSettings& settings, const optics::RigCa
 }
 
 /// Whether the pipeline can use the format that the camera delivers.
-Result<> check_format(const hal::StreamFormat& format, const CameraSettings& settings,
+Result<> check_format(const hal::StreamFormat& format, const files::CameraSettings& settings,
                       const optics::RigCamera& rig) {
   const std::string delivers = "delivers " + std::string(info(format.format).name);
-  if (!ViewRenderer::is_supported(format.format)) {
+  if (!pipeline::ViewRenderer::is_supported(format.format)) {
     return fail(delivers + ", of which no view can be made");
   }
   if (settings.radiometry.is_radiometric() && format.format != PixelFormat::Y16) {
-    const std::string advice(facts_of(settings.back_end).radiometric_advice);
+    const std::string advice(files::facts_of(settings.back_end).radiometric_advice);
     return fail("is radiometric but " + delivers + "; a radiometric camera delivers y16" +
                 (advice.empty() ? "" : ": " + advice));
   }
@@ -64,7 +64,7 @@ std::string kelvin_text(double kelvin) {
 
 /// Kelvin per count as the files or the camera itself say; 0: it is not radiometric. Error: they
 /// contradict each other, or neither says.
-Result<double> scale_of_counts(const hal::Camera& camera, const CameraSettings& settings) {
+Result<double> scale_of_counts(const hal::Camera& camera, const files::CameraSettings& settings) {
   const double stated = settings.radiometry.kelvin_per_count;
   if (!settings.radiometry.is_radiometric()) return 0;
   const auto said = camera.count_scale();
@@ -92,7 +92,8 @@ Result<double> scale_of_counts(const hal::Camera& camera, const CameraSettings& 
 }  // namespace
 
 std::unique_ptr<hal::Camera> make_camera(
-    const CameraSettings& settings, const std::shared_ptr<const simulation::Machine>& machine) {
+    const files::CameraSettings& settings,
+    const std::shared_ptr<const simulation::Machine>& machine) {
   const simulation::SimulationContext context{
       {settings.name, settings.stream.frame_rate, settings.radiometry.kelvin_per_count,
        settings.faults, settings.radiometry.kelvin_offset},
@@ -104,7 +105,7 @@ std::unique_ptr<hal::Camera> make_camera(
   return camera;
 }
 
-Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& site) {
+Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const files::Resolved& site) {
   return simulation::Machine::make(site.site.simulation, hal::Clock::now())
       .map([&](const auto& machine) {
         std::vector<std::unique_ptr<hal::Camera>> cameras;
@@ -114,12 +115,12 @@ Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& s
       });
 }
 
-hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
+hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const files::Resolved& site,
                                                  std::size_t index) {
-  const CameraSettings& settings = site.site.cameras[index];
+  const files::CameraSettings& settings = site.site.cameras[index];
   auto format = camera.configure(stream_of(settings, site.rig_camera(index)));
   if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
-  for (const ControlSettings& control : controls_of(site, index)) {
+  for (const files::ControlSettings& control : controls_of(site, index)) {
     if (const auto done = camera.set(control.name, control.value); !done) {
       return hal::fail(hal::Fault::Refused, done.error().message);
     }
@@ -134,7 +135,7 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Reso
   return *format;
 }
 
-Result<OpenedCameras> open_cameras(const Resolved& site) {
+Result<OpenedCameras> open_cameras(const files::Resolved& site) {
   return make_cameras(site).map([&](std::vector<std::unique_ptr<hal::Camera>> cameras) {
     OpenedCameras opened;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -147,9 +148,10 @@ Result<OpenedCameras> open_cameras(const Resolved& site) {
   });
 }
 
-void add_cameras(PipelinePlan& plan, OpenedCameras opened, const Resolved& site, Lines& lines) {
+void add_cameras(pipeline::PipelinePlan& plan, OpenedCameras opened, const files::Resolved& site,
+                 Lines& lines) {
   for (std::size_t i = 0; i < opened.cameras.size(); ++i) {
-    const CameraSettings& settings = site.site.cameras[i];
+    const files::CameraSettings& settings = site.site.cameras[i];
     plan.triggers.push_back(
         lines.trigger(settings.trigger, settings.trigger_source, *opened.cameras[i]));
   }
@@ -158,8 +160,8 @@ void add_cameras(PipelinePlan& plan, OpenedCameras opened, const Resolved& site,
   plan.process_inputs = lines.process_inputs();
 }
 
-hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera,
-                            Pipeline& pipeline) {
+hal::DeviceResult<> take_up(const files::Resolved& site, std::size_t index, hal::Camera& camera,
+                            pipeline::Pipeline& pipeline) {
   const auto missing = [&](const hal::FaultReport& fault) {
     pipeline.miss(index, fault.fault);
     return hal::fail(fault.fault, "camera " + site.site.cameras[index].name + ": " + fault.detail);
@@ -182,4 +184,4 @@ hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

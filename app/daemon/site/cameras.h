@@ -12,38 +12,39 @@
 #include "hal/camera.h"
 #include "hal/fault.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// Makes the camera that `settings` describe. Simulated ones look into `machine`.
-std::unique_ptr<hal::Camera> make_camera(const CameraSettings& settings,
+std::unique_ptr<hal::Camera> make_camera(const files::CameraSettings& settings,
                                          const std::shared_ptr<const simulation::Machine>& machine);
 
 /// Makes every camera of the site, none of them opened. Error: the simulated machine.
-Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& site);
+Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const files::Resolved& site);
 
 /// Configures a camera of the site, with its controls and those of the first recipe. The fault:
 /// Unplugged, as it is not there or cannot be opened; Refused, one of the controls; WrongFormat, it
 /// delivers what the pipeline cannot use, or another size than the rig's.
-hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
+hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const files::Resolved& site,
                                                  std::size_t index);
 
 /// The cameras of a site as they are at the start.
 struct OpenedCameras {
   std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< in the site's order
   std::vector<hal::StreamFormat> formats;  ///< what they deliver; the expected one of an absent one
-  CameraSet absent;                        ///< those that could not be opened
+  pipeline::CameraSet absent;              ///< those that could not be opened
 };
 
 /// Makes and opens the site's cameras. Error: the files.
-Result<OpenedCameras> open_cameras(const Resolved& site);
+Result<OpenedCameras> open_cameras(const files::Resolved& site);
 
 /// Gives the pipeline its cameras, joined with their trigger `lines`, and its process inputs.
-void add_cameras(PipelinePlan& plan, OpenedCameras opened, const Resolved& site, Lines& lines);
+void add_cameras(pipeline::PipelinePlan& plan, OpenedCameras opened, const files::Resolved& site,
+                 Lines& lines);
 
 /// Opens an absent camera and has the pipeline take it up; compiles its views first where it
 /// delivers another format than was expected. On the main thread. The error is also the camera's
 /// fault.
-hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera,
-                            Pipeline& pipeline);
+hal::DeviceResult<> take_up(const files::Resolved& site, std::size_t index, hal::Camera& camera,
+                            pipeline::Pipeline& pipeline);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

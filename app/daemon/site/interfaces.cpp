@@ -12,7 +12,7 @@
 #include "app/model/fleet/fleet.h"
 #include "app/ports/web/web_context.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Parts that sinks are made with; each sink takes those that its make_sink() names.
@@ -31,8 +31,8 @@ std::unique_ptr<Sink> made(std::unique_ptr<Sink> (*make)(const Settings&, const 
   return make(settings, std::get<Parts>(parts)...);
 }
 
-PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSource* alignment,
-                         Program program) {
+PageContext page_context(const files::Resolved& site, const SitePlan& plan,
+                         AlignmentSource* alignment, Program program) {
   return {.ball = plan.scene.ball,
           .scene = plan.scene.proxy,
           .recipes = measured_recipes(site, plan),
@@ -42,18 +42,18 @@ PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSo
 }
 
 /// Address of the appliance's page for other computers.
-PageAddress page_of(const SinkSettings& sinks) {
+PageAddress page_of(const files::SinkSettings& sinks) {
   PageAddress page;
-  for_each_sink(sinks, [&page](const auto& settings) {
+  files::for_each_sink(sinks, [&page](const auto& settings) {
     if constexpr (requires { page_address(settings); }) page = page_address(settings);
   });
   return page;
 }
 
 /// Null: there is nobody to receive from, or nobody to show it to.
-std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
+std::shared_ptr<Fleet> make_fleet(const files::SinkSettings& sinks) {
   bool is_filled = false, is_shown = false;
-  for_each_sink(sinks, [&](const auto& settings) {
+  files::for_each_sink(sinks, [&](const auto& settings) {
     if constexpr (requires { fills_fleet(settings); }) is_filled |= fills_fleet(settings);
     if constexpr (requires { shows_fleet(settings); }) is_shown |= shows_fleet(settings);
   });
@@ -62,21 +62,21 @@ std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
 
 }  // namespace
 
-std::string commanders_text(const SinkSettings& sinks) {
+std::string commanders_text(const files::SinkSettings& sinks) {
   std::string text;
   const auto add = [&text](const std::string& commanders) {
     if (!commanders.empty()) text += (text.empty() ? "" : "; ") + commanders;
   };
-  for_each_sink(sinks, [&add](const auto& settings) {
+  files::for_each_sink(sinks, [&add](const auto& settings) {
     if constexpr (requires { commanders(settings); }) add(commanders(settings));
   });
   return "takes commands " + (text.empty() ? "from nobody" : text);
 }
 
-Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
+Interfaces::Interfaces(const files::Resolved& site, const SitePlan& plan, CommandPath commands,
                        std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
                        Program program) {
-  const SinkSettings& sinks = site.site.sinks;
+  const files::SinkSettings& sinks = site.site.sinks;
   ApplianceIdentity identity;
   identity.version = version_of(program);
   identity.page = page_of(sinks);
@@ -92,7 +92,7 @@ Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath c
                         std::move(identity),
                         std::move(page)};
   std::size_t next = 0;
-  for_each_sink(sinks, [&]<class Settings>(const Settings& settings) {
+  files::for_each_sink(sinks, [&]<class Settings>(const Settings& settings) {
     all_[next++] = made<Settings>(make_sink, settings, parts);
   });
 }
@@ -140,4 +140,4 @@ std::uint32_t Interfaces::faults() const {
   return faults;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -20,16 +20,18 @@
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
-
 class AlignmentSource;
+}
+
+namespace orbwatch::app::daemon {
 
 /// Who may command this appliance, in one line. Reentrant.
-std::string commanders_text(const SinkSettings& sinks);
+std::string commanders_text(const files::SinkSettings& sinks);
 
 /// By bit of Interfaces::faults().
 inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<Settings...>*) {
   return std::array{Settings::kName...};
-}(static_cast<const SinkSettings*>(nullptr));
+}(static_cast<const files::SinkSettings*>(nullptr));
 
 /// The interfaces of a site to the outside, each started by itself: one that cannot be opened is
 /// tried again while the others work. Thread rule: one owner, apart from faults().
@@ -37,7 +39,7 @@ class Interfaces {
  public:
   /// Makes the enabled ones. `commands` go to the appliance; `background` encodes; `alignment` is
   /// the caller's and outlives this; null: none.
-  Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
+  Interfaces(const files::Resolved& site, const SitePlan& plan, CommandPath commands,
              std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment = nullptr,
              Program program = {});
 
@@ -70,4 +72,4 @@ class Interfaces {
   std::atomic<std::uint32_t> started_{0};  ///< bit n: all_[n]
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

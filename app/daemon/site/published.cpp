@@ -4,42 +4,43 @@
 #include <cstddef>
 #include <memory>
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
-PublishedSource published(const Resolved& site, const SourceSettings& source) {
-  const CameraSettings& camera = site.site.cameras[source.camera.index];
+PublishedSource published(const files::Resolved& site, const pipeline::SourceSettings& source) {
+  const files::CameraSettings& camera = site.site.cameras[source.camera.index];
   return {camera.name, source.colour_map, range_of(source), camera.radiometry.is_radiometric()};
 }
 
 /// Offers a measured view.
-PublishedView published(const Resolved& site, const ViewSettings& view) {
+PublishedView published(const files::Resolved& site, const pipeline::ViewSettings& view) {
   PublishedView published_view;
   published_view.encoding = view.encoding;
   published_view.spec = view.spec();
-  for (const SourceSettings& source : view.sources) {
+  for (const pipeline::SourceSettings& source : view.sources) {
     published_view.sources.push_back(published(site, source));
   }
   return published_view;
 }
 
-PublishedView published_display(const Resolved& site, const ViewSettings& view) {
+PublishedView published_display(const files::Resolved& site, const pipeline::ViewSettings& view) {
   PublishedView display = published(site, view);
   display.measured = false;
   display.is_own_picture = is_own_picture(view);
-  display.mixes = view.combine != Combine::Switch && view.sources.size() > 1;
+  display.mixes = view.combine != pipeline::Combine::Switch && view.sources.size() > 1;
   return display;
 }
 
-std::shared_ptr<const optics::ViewProjection> shared(const ViewPlan& view) {
+std::shared_ptr<const optics::ViewProjection> shared(const pipeline::ViewPlan& view) {
   return std::make_shared<const optics::ViewProjection>(view.projection);
 }
 
-MeasuredRecipe measured(const Recipe& stated, const RecipePlan& plan) {
+MeasuredRecipe measured(const pipeline::Recipe& stated, const pipeline::RecipePlan& plan) {
   MeasuredRecipe recipe{plan.number, stated.name, {}, {}, plan.alarms};
-  for (const ViewPlan& view : plan.views) recipe.views.push_back({view.name, shared(view)});
+  for (const pipeline::ViewPlan& view : plan.views)
+    recipe.views.push_back({view.name, shared(view)});
   for (std::size_t i = 0; i < plan.regions.size(); ++i) {
-    const RegionPlan& region = plan.regions[i];
+    const pipeline::RegionPlan& region = plan.regions[i];
     recipe.regions.push_back({region.name, region.view, stated.regions[i].directions,
                               stated.regions[i].points, region.settings.outline});
   }
@@ -48,16 +49,16 @@ MeasuredRecipe measured(const Recipe& stated, const RecipePlan& plan) {
 
 }  // namespace
 
-std::vector<PublishedView> published_views(const Resolved& site, const SitePlan& plan) {
+std::vector<PublishedView> published_views(const files::Resolved& site, const SitePlan& plan) {
   std::vector<PublishedView> views(site.names.views.size());
   for (std::size_t i = 0; i < site.site.views.size(); ++i) {
-    const ViewSettings& view = site.site.views[i];
+    const pipeline::ViewSettings& view = site.site.views[i];
     views[view.index] = published_display(site, view);
     views[view.index].ball = plan.balls[i];
   }
   for (std::size_t i = 0; i < site.recipes.size(); ++i) {
     for (std::size_t k = 0; k < site.recipes[i].views.size(); ++k) {
-      const ViewSettings& view = site.recipes[i].views[k];
+      const pipeline::ViewSettings& view = site.recipes[i].views[k];
       views[view.index] = published(site, view);
       const bool is_ball = view.kind == optics::ViewKind::Ball;
       views[view.index].ball = is_ball ? shared(plan.recipes[i].views[k]) : nullptr;
@@ -66,7 +67,7 @@ std::vector<PublishedView> published_views(const Resolved& site, const SitePlan&
   return views;
 }
 
-std::vector<PublishedCamera> published_cameras(const Resolved& site) {
+std::vector<PublishedCamera> published_cameras(const files::Resolved& site) {
   std::vector<PublishedCamera> cameras;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     cameras.push_back({site.site.cameras[i].encoding, site.rig_camera(i).intrinsics});
@@ -74,7 +75,7 @@ std::vector<PublishedCamera> published_cameras(const Resolved& site) {
   return cameras;
 }
 
-std::vector<MeasuredRecipe> measured_recipes(const Resolved& site, const SitePlan& plan) {
+std::vector<MeasuredRecipe> measured_recipes(const files::Resolved& site, const SitePlan& plan) {
   std::vector<MeasuredRecipe> recipes;
   for (std::size_t i = 0; i < plan.recipes.size(); ++i) {
     recipes.push_back(measured(site.recipes[i], plan.recipes[i]));
@@ -82,4 +83,4 @@ std::vector<MeasuredRecipe> measured_recipes(const Resolved& site, const SitePla
   return recipes;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -8,15 +8,15 @@
 #include "app/model/sink/published.h"
 #include "app/model/status/measured_recipe.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// The views of a site as they are offered to the outside, by place in its names. Reentrant.
-std::vector<PublishedView> published_views(const Resolved& site, const SitePlan& plan);
+std::vector<PublishedView> published_views(const files::Resolved& site, const SitePlan& plan);
 
 /// Its cameras, by place in its names. Reentrant.
-std::vector<PublishedCamera> published_cameras(const Resolved& site);
+std::vector<PublishedCamera> published_cameras(const files::Resolved& site);
 
 /// Its recipes, with the outlines and projections that they are measured by. Reentrant.
-std::vector<MeasuredRecipe> measured_recipes(const Resolved& site, const SitePlan& plan);
+std::vector<MeasuredRecipe> measured_recipes(const files::Resolved& site, const SitePlan& plan);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

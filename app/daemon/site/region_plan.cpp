@@ -12,11 +12,12 @@
 #include "proc/optics/rotation.h"
 #include "proc/signals/hot_spot/assumed_limits.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// From the ball's centre to the corners.
-std::vector<optics::Vec3> outline_of(const RegionOfInterest& region, const optics::Vec3& centre) {
+std::vector<optics::Vec3> outline_of(const pipeline::RegionOfInterest& region,
+                                     const optics::Vec3& centre) {
   std::vector<optics::Vec3> corners;
   for (const auto& [yaw, pitch] : region.directions) {
     corners.push_back(optics::rotation({yaw, pitch, 0}) * optics::Vec3{0, 1, 0});
@@ -43,14 +44,14 @@ Result<> check_threshold(const char* key, double value, double counts,
 }
 
 /// The region's thresholds in counts.
-Result<> set_thresholds(const RegionOfInterest& region, const hal::StreamFormat& format,
+Result<> set_thresholds(const pipeline::RegionOfInterest& region, const hal::StreamFormat& format,
                         signals::RegionSettings& settings) {
   const auto scale = signals::Radiometry::make(settings.radiometry);
   if (!scale) return tl::unexpected(scale.error());
   const auto set = [&](const char* key, std::optional<double> value, auto& counts) -> Result<> {
     if (!value) return {};
     const double there =
-        scale->is_radiometric() ? scale->counts(*value) : counts_of(*value, format);
+        scale->is_radiometric() ? scale->counts(*value) : pipeline::counts_of(*value, format);
     counts = there;
     return check_threshold(key, *value, there, *scale, settings.full_scale);
   };
@@ -63,7 +64,7 @@ Result<> set_thresholds(const RegionOfInterest& region, const hal::StreamFormat&
 }
 
 /// Error: an alarm watches what never has a value.
-Result<> check_alarms(const RegionOfInterest& region, signals::Requires provided) {
+Result<> check_alarms(const pipeline::RegionOfInterest& region, signals::Requires provided) {
   for (const signals::AlarmLimits& alarm : region.alarms) {
     const signals::SignalInfo& signal = signals::kSignals[alarm.signal];
     if (const auto missing = signals::first_missing(signal, provided)) {
@@ -76,14 +77,15 @@ Result<> check_alarms(const RegionOfInterest& region, signals::Requires provided
 
 }  // namespace
 
-Result<RegionPlan> plan_region(const RegionOfInterest& region, const ViewPlan& view,
-                               const signals::RadiometrySettings& radiometry,
-                               const signals::RegionScene& scene) {
+Result<pipeline::RegionPlan> plan_region(const pipeline::RegionOfInterest& region,
+                                         const pipeline::ViewPlan& view,
+                                         const signals::RadiometrySettings& radiometry,
+                                         const signals::RegionScene& scene) {
   const hal::StreamFormat& format = view.sources[*view.measured].format;
   signals::RegionSettings settings;
   settings.outline = outline_of(region, scene.ball.centre);
   settings.width_set_point = region.width;
-  settings.full_scale = full_scale(format);
+  settings.full_scale = pipeline::full_scale(format);
   settings.radiometry = radiometry;
   settings.radiometry.kelvin_per_count = format.kelvin_per_count;
   settings.radiometry.emissivity = region.emissivity;
@@ -96,8 +98,8 @@ Result<RegionPlan> plan_region(const RegionOfInterest& region, const ViewPlan& v
   settings.hot_spot_limits = {region.hot_spot_min_area.value_or(assumed.min_area),
                               region.hot_spot_max_speed.value_or(assumed.max_speed)};
   return check_alarms(region, signals::provided_by(settings, !scene.proxy.is_far())).map([&] {
-    return RegionPlan{region.name, region.view.index, std::move(settings)};
+    return pipeline::RegionPlan{region.name, region.view.index, std::move(settings)};
   });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -13,7 +13,7 @@
 #include "hal/host.h"
 #include "hal/thread/scheduling.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 namespace {
 
@@ -29,9 +29,9 @@ std::string text_of(const ListeningPort& port) {
 
 }  // namespace
 
-std::vector<ListeningPort> listening_ports(const SinkSettings& sinks) {
+std::vector<ListeningPort> listening_ports(const files::SinkSettings& sinks) {
   std::vector<ListeningPort> ports;
-  for_each_sink(sinks, [&ports](const auto& settings) {
+  files::for_each_sink(sinks, [&ports](const auto& settings) {
     if constexpr (requires { listening_ports(settings); }) {
       for (ListeningPort& port : listening_ports(settings)) {
         if (port.port != 0) ports.push_back(std::move(port));
@@ -41,9 +41,9 @@ std::vector<ListeningPort> listening_ports(const SinkSettings& sinks) {
   return ports;
 }
 
-Result<> check_keys(const Resolved& site, Dates dates) {
+Result<> check_keys(const files::Resolved& site, Dates dates) {
   Result<> checked;
-  for_each_sink(site.site.sinks, [&](const auto& settings) {
+  files::for_each_sink(site.site.sinks, [&](const auto& settings) {
     if constexpr (requires { check_keys(settings, dates); }) {
       if (checked) checked = check_keys(settings, dates);
     }
@@ -51,7 +51,7 @@ Result<> check_keys(const Resolved& site, Dates dates) {
   return checked;
 }
 
-Result<> check_ports(const Resolved& site) {
+Result<> check_ports(const files::Resolved& site) {
   const auto ports = listening_ports(site.site.sinks);
   for (auto later = ports.begin(); later != ports.end(); ++later) {
     const auto earlier = std::find_if(
@@ -63,12 +63,12 @@ Result<> check_ports(const Resolved& site) {
   return {};
 }
 
-Result<SitePlan> checked_plan(const Resolved& site, Dates dates) {
+Result<SitePlan> checked_plan(const files::Resolved& site, Dates dates) {
   if (auto fits = check_view_memory(site); !fits) return tl::unexpected(fits.error());
   auto plan = SitePlan::make(site, expected_formats(site));
   if (!plan) return plan;
   for (std::size_t i = 0; i < plan->recipes.size(); ++i) {
-    const auto checked = CompiledRecipe::check(plan->recipes[i], plan->scene);
+    const auto checked = pipeline::CompiledRecipe::check(plan->recipes[i], plan->scene);
     if (!checked) return tl::unexpected(in_recipe(site, i, checked.error()));
   }
   return hal::check(site.site.threads)
@@ -77,8 +77,8 @@ Result<SitePlan> checked_plan(const Resolved& site, Dates dates) {
       .map([&] { return std::move(*plan); });
 }
 
-Result<> check_site(const Resolved& site, Dates dates) {
+Result<> check_site(const files::Resolved& site, Dates dates) {
   return checked_plan(site, dates).map([](const SitePlan&) {});
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -9,23 +9,23 @@
 #include "app/model/sink/listening_port.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 /// The TCP ports of all enabled interfaces, without those that are any free one. Reentrant.
-std::vector<ListeningPort> listening_ports(const SinkSettings& sinks);
+std::vector<ListeningPort> listening_ports(const files::SinkSettings& sinks);
 
 /// Error: two interfaces would listen on one port.
-Result<> check_ports(const Resolved& site);
+Result<> check_ports(const files::Resolved& site);
 
 /// Checks keys and certificates of the enabled interfaces, as far as files are named.
-Result<> check_keys(const Resolved& site, Dates dates);
+Result<> check_keys(const files::Resolved& site, Dates dates);
 
 /// Plans the site for the formats that are expected, and checks what build() would refuse, ports
 /// and keys. Opens no camera and no line; compiles no view and allocates no picture, so that it may
 /// run beside the site.
-Result<SitePlan> checked_plan(const Resolved& site, Dates dates);
+Result<SitePlan> checked_plan(const files::Resolved& site, Dates dates);
 
 /// The same for callers that need no plan.
-Result<> check_site(const Resolved& site, Dates dates);
+Result<> check_site(const files::Resolved& site, Dates dates);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

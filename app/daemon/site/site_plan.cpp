@@ -11,7 +11,7 @@
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/views/source_colours.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Assumed scale of a thermal camera that is not connected yet, to check a recipe's temperatures.
@@ -26,10 +26,10 @@ std::size_t place_of(std::string_view colour_map) {
 /// Fills a plan that has its scene and formats.
 class Planner {
  public:
-  Planner(const Resolved& site, SitePlan& plan) : site_(site), plan_(plan) {}
+  Planner(const files::Resolved& site, SitePlan& plan) : site_(site), plan_(plan) {}
 
   Result<> run() {
-    for (const ViewSettings& view : site_.site.views) {
+    for (const pipeline::ViewSettings& view : site_.site.views) {
       if (auto planned = add_display_view(view); !planned) return planned;
     }
     for (std::size_t i = 0; i < site_.recipes.size(); ++i) {
@@ -43,7 +43,7 @@ class Planner {
  private:
   /// A ball's picture by its own camera alone is copied: where that sees the scene from the ball,
   /// one part may hide another that the ball's centre sees.
-  Result<> add_display_view(const ViewSettings& view) {
+  Result<> add_display_view(const pipeline::ViewSettings& view) {
     auto planned = plan_view(view, site_.rig);
     if (!planned) return tl::unexpected(planned.error());
     plan_.balls.push_back(view.kind == optics::ViewKind::Ball
@@ -59,15 +59,15 @@ class Planner {
     return {};
   }
 
-  bool is_registered(const SourceSettings& source) const {
+  bool is_registered(const pipeline::SourceSettings& source) const {
     return site_.rig_camera(source.camera.index).is_registered;
   }
 
   /// The sources of a view without those that are not registered, which would put things in wrong
   /// places. One alone is shown as it is.
-  std::vector<SourceSettings> shown_together(const ViewSettings& view) const {
-    std::vector<SourceSettings> shown;
-    for (const SourceSettings& source : view.sources) {
+  std::vector<pipeline::SourceSettings> shown_together(const pipeline::ViewSettings& view) const {
+    std::vector<pipeline::SourceSettings> shown;
+    for (const pipeline::SourceSettings& source : view.sources) {
       if (is_registered(source)) shown.push_back(source);
     }
     if (shown.empty()) shown.push_back(view.sources.front());
@@ -75,8 +75,8 @@ class Planner {
   }
 
   /// Nothing is measured at a place that is not known.
-  Result<> check_measured(const MeasuredViewSettings& view) const {
-    const SourceSettings& measured = view.sources[view.measured.index];
+  Result<> check_measured(const pipeline::MeasuredViewSettings& view) const {
+    const pipeline::SourceSettings& measured = view.sources[view.measured.index];
     if (is_registered(measured)) return {};
     return fail("view " + view.name + ": camera " + measured.camera.name +
                 ", which measures it, is not registered; " + std::string(kRegisterAdvice) +
@@ -84,50 +84,53 @@ class Planner {
   }
 
   /// Error: the rig makes the view impossible.
-  Result<ViewPlan> plan_view(const ViewSettings& view, const optics::Rig& rig) const {
-    std::vector<ViewSource> sources;
-    for (const SourceSettings& source : shown_together(view)) {
+  Result<pipeline::ViewPlan> plan_view(const pipeline::ViewSettings& view,
+                                       const optics::Rig& rig) const {
+    std::vector<pipeline::ViewSource> sources;
+    for (const pipeline::SourceSettings& source : shown_together(view)) {
       const std::size_t camera = source.camera.index;
       auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
       if (!ball) return tl::unexpected(ball.error());
       const hal::StreamFormat& format = plan_.formats[camera];
       const auto range = range_of(source);
-      sources.push_back({camera,
-                         format,
-                         std::move(*ball),
-                         source.weight,
-                         make_colour_map(colour_map_table(source.colour_map), range, format),
-                         source.sharpness,
-                         {place_of(source.colour_map), range}});
+      sources.push_back(
+          {camera,
+           format,
+           std::move(*ball),
+           source.weight,
+           pipeline::make_colour_map(colour_map_table(source.colour_map), range, format),
+           source.sharpness,
+           {place_of(source.colour_map), range}});
     }
     auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
     if (!projection) return fail("view " + view.name + ": " + projection.error().message);
-    return ViewPlan{view.index,   view.name,          std::move(*projection), std::move(sources),
-                    view.combine, view.interpolation, std::nullopt,           0,
-                    view.match};
+    return pipeline::ViewPlan{
+        view.index,   view.name,          std::move(*projection), std::move(sources),
+        view.combine, view.interpolation, std::nullopt,           0,
+        view.match};
   }
 
-  Result<ViewPlan> plan_measured_view(const MeasuredViewSettings& view) const {
+  Result<pipeline::ViewPlan> plan_measured_view(const pipeline::MeasuredViewSettings& view) const {
     auto planned = check_measured(view).and_then([&] { return plan_view(view, site_.rig); });
     if (!planned) return planned;
     const std::size_t camera = view.sources[view.measured.index].camera.index;
-    planned->measured =
-        static_cast<std::size_t>(std::ranges::find(planned->sources, camera, &ViewSource::camera) -
-                                 planned->sources.begin());
+    planned->measured = static_cast<std::size_t>(
+        std::ranges::find(planned->sources, camera, &pipeline::ViewSource::camera) -
+        planned->sources.begin());
     return planned;
   }
 
-  Result<RecipePlan> plan_recipe(std::size_t index) const {
-    const Recipe& recipe = site_.recipes[index];
-    RecipePlan plan;
+  Result<pipeline::RecipePlan> plan_recipe(std::size_t index) const {
+    const pipeline::Recipe& recipe = site_.recipes[index];
+    pipeline::RecipePlan plan;
     plan.number = site_.site.recipes[index].number;
-    for (const MeasuredViewSettings& view : recipe.views) {
+    for (const pipeline::MeasuredViewSettings& view : recipe.views) {
       auto planned = plan_measured_view(view);
       if (!planned) return tl::unexpected(planned.error());
       plan.views.push_back(std::move(*planned));
     }
-    for (const RegionOfInterest& region : recipe.regions) {
-      const ViewPlan& view = plan.views[region.view.index];
+    for (const pipeline::RegionOfInterest& region : recipe.regions) {
+      const pipeline::ViewPlan& view = plan.views[region.view.index];
       const std::size_t camera = view.sources[*view.measured].camera;
       auto planned = plan_region(region, view, site_.site.cameras[camera].radiometry, plan_.scene);
       if (!planned) return fail("region " + region.name + ": " + planned.error().message);
@@ -141,14 +144,14 @@ class Planner {
     return plan;
   }
 
-  const Resolved& site_;
+  const files::Resolved& site_;
   SitePlan& plan_;
 };
 
 }  // namespace
 
-hal::StreamFormat expected_format(const Resolved& site, std::size_t camera) {
-  const CameraSettings& settings = site.site.cameras[camera];
+hal::StreamFormat expected_format(const files::Resolved& site, std::size_t camera) {
+  const files::CameraSettings& settings = site.site.cameras[camera];
   hal::StreamFormat format;
   const signals::RadiometrySettings& radiometry = settings.radiometry;
   format.format = radiometry.is_radiometric() ? PixelFormat::Y16 : PixelFormat::Grey;
@@ -162,7 +165,7 @@ hal::StreamFormat expected_format(const Resolved& site, std::size_t camera) {
   return format;
 }
 
-std::vector<hal::StreamFormat> expected_formats(const Resolved& site) {
+std::vector<hal::StreamFormat> expected_formats(const files::Resolved& site) {
   std::vector<hal::StreamFormat> formats;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     formats.push_back(expected_format(site, i));
@@ -170,7 +173,8 @@ std::vector<hal::StreamFormat> expected_formats(const Resolved& site) {
   return formats;
 }
 
-Result<SitePlan> SitePlan::make(const Resolved& site, std::vector<hal::StreamFormat> formats) {
+Result<SitePlan> SitePlan::make(const files::Resolved& site,
+                                std::vector<hal::StreamFormat> formats) {
   auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
   if (!proxy) return tl::unexpected(proxy.error());
   SitePlan plan;
@@ -179,8 +183,8 @@ Result<SitePlan> SitePlan::make(const Resolved& site, std::vector<hal::StreamFor
   return Planner(site, plan).run().map([&] { return std::move(plan); });
 }
 
-Error in_recipe(const Resolved& site, std::size_t recipe, const Error& error) {
+Error in_recipe(const files::Resolved& site, std::size_t recipe, const Error& error) {
   return {site.site.recipes[recipe].file.path.string() + ": " + error.message};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

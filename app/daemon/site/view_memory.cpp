@@ -9,7 +9,7 @@
 
 #include "app/pipeline/views/view_buffers.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 std::string gigabytes(std::uint64_t bytes) {
@@ -21,15 +21,15 @@ std::string gigabytes(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t view_memory(const Resolved& site) {
+std::uint64_t view_memory(const files::Resolved& site) {
   std::uint64_t displayed = 0;
-  for (const ViewSettings& view : site.site.views)
-    displayed += display_bytes(view.width, view.height);
+  for (const pipeline::ViewSettings& view : site.site.views)
+    displayed += pipeline::display_bytes(view.width, view.height);
   std::uint64_t largest = 0;
-  for (const Recipe& recipe : site.recipes) {
+  for (const pipeline::Recipe& recipe : site.recipes) {
     std::uint64_t measured = 0;
-    for (const ViewSettings& view : recipe.views)
-      measured += measured_bytes(view.width, view.height);
+    for (const pipeline::ViewSettings& view : recipe.views)
+      measured += pipeline::measured_bytes(view.width, view.height);
     largest = std::max(largest, measured);
   }
   return displayed + largest;
@@ -41,11 +41,11 @@ std::uint64_t computer_memory() {
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size);
 }
 
-Result<> check_view_memory(const Resolved& site, std::uint64_t memory) {
+Result<> check_view_memory(const files::Resolved& site, std::uint64_t memory) {
   const std::uint64_t needed = view_memory(site);
   if (memory == 0 || needed <= memory) return {};
   return fail("the views need " + gigabytes(needed) + " of memory at least, this computer has " +
               gigabytes(memory) + "; make width and height of views smaller, or state fewer");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -11,7 +11,7 @@
 #include "app/files/toml/toml_edit.h"
 #include "app/files/toml/toml_text.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 template <std::size_t N>
@@ -32,7 +32,8 @@ bool is_at(const toml::node& node, const std::array<double, N>& corner) {
 
 class RecipeEdit {
  public:
-  RecipeEdit(TomlEdit edit, Recipe recipe) : edit_(std::move(edit)), recipe_(std::move(recipe)) {}
+  RecipeEdit(TomlEdit edit, pipeline::Recipe recipe)
+      : edit_(std::move(edit)), recipe_(std::move(recipe)) {}
 
   Result<> change(const LimitChange& change);
   Result<> change(const RegionChange& change);
@@ -50,7 +51,7 @@ class RecipeEdit {
   void add(const RegionChange& change);
 
   TomlEdit edit_;
-  Recipe recipe_;
+  pipeline::Recipe recipe_;
 };
 
 Result<> RecipeEdit::change(const LimitChange& change) {
@@ -61,7 +62,7 @@ Result<> RecipeEdit::change(const LimitChange& change) {
   if (!is_limit) return fail("an alarm has no limit \"" + change.limit + "\"");
   std::size_t before = 0;
   for (std::size_t i = 0; i < recipe_.regions.size(); ++i) {
-    const RegionOfInterest& region = recipe_.regions[i];
+    const pipeline::RegionOfInterest& region = recipe_.regions[i];
     if (change.alarm <= before || change.alarm > before + region.alarms.size()) {
       before += region.alarms.size();
       continue;
@@ -84,7 +85,8 @@ Result<> RecipeEdit::change(const LimitChange& change) {
 }
 
 Result<> RecipeEdit::change(const RegionChange& change) {
-  const auto found = std::ranges::find(recipe_.regions, change.name, &RegionOfInterest::name);
+  const auto found =
+      std::ranges::find(recipe_.regions, change.name, &pipeline::RegionOfInterest::name);
   const bool is_there = found != recipe_.regions.end();
   const bool is_new = change.added && !change.is_removed;
   if (!is_there && !is_new) return fail("there is no region " + change.name);
@@ -173,7 +175,7 @@ Result<> check_once(const RecipeChange& change) {
 
 /// Edits a recipe that was read from the text.
 Result<std::string> edited(const std::string& text, const std::string& name,
-                           const RecipeChange& change, Recipe recipe) {
+                           const RecipeChange& change, pipeline::Recipe recipe) {
   auto toml = TomlEdit::make(text, name);
   if (!toml) return tl::unexpected(toml.error());
   RecipeEdit edit(std::move(*toml), std::move(recipe));
@@ -188,10 +190,11 @@ Result<std::string> changed_recipe(const std::string& text, const std::string& n
                                    const RecipeChange& change) {
   const auto read = [&name](const std::string& recipe) { return parse_recipe(recipe, name); };
   return read(text)
-      .and_then([&](Recipe recipe) { return edited(text, name, change, std::move(recipe)); })
+      .and_then(
+          [&](pipeline::Recipe recipe) { return edited(text, name, change, std::move(recipe)); })
       .and_then([&](const std::string& changed) {
-        return read(changed).map([&](const Recipe&) { return changed; });
+        return read(changed).map([&](const pipeline::Recipe&) { return changed; });
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

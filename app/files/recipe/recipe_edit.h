@@ -6,7 +6,7 @@
 #include "app/model/configuration/recipe_change.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// The text of a recipe's file with changes; comments, order and every unchanged value are kept
 /// byte for byte. `name` is the file's, for messages. Errors: a recipe that is refused before or
@@ -15,4 +15,4 @@ namespace orbwatch::app {
 Result<std::string> changed_recipe(const std::string& text, const std::string& name,
                                    const RecipeChange& change);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

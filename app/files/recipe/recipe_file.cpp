@@ -7,16 +7,16 @@
 #include "app/files/toml/manual_writer.h"
 #include "app/files/toml/toml_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
-void resolve_view(MeasuredViewSettings& view, int line, Finding& finding) {
+void resolve_view(pipeline::MeasuredViewSettings& view, int line, Finding& finding) {
   if (const auto possible = optics::check_view(view.spec()); !possible) {
     finding.refuse(line, "view", possible.error().message);
   }
   const auto measured =
       std::ranges::find(view.sources, view.measured.name,
-                        [](const SourceSettings& source) { return source.camera.name; });
+                        [](const pipeline::SourceSettings& source) { return source.camera.name; });
   view.measured.index = static_cast<std::size_t>(measured - view.sources.begin());
   if (measured != view.sources.end()) return;
   finding.refuse(line, "view.measured",
@@ -24,11 +24,12 @@ void resolve_view(MeasuredViewSettings& view, int line, Finding& finding) {
 }
 
 /// Sets the view of each region and the region of each alarm.
-void resolve_regions(Recipe& recipe, Finding& finding) {
+void resolve_regions(pipeline::Recipe& recipe, Finding& finding) {
   std::size_t alarms = 0;
   for (std::size_t i = 0; i < recipe.regions.size(); ++i) {
     auto& region = recipe.regions[i];
-    const auto view = std::ranges::find(recipe.views, region.view.name, &ViewSettings::name);
+    const auto view =
+        std::ranges::find(recipe.views, region.view.name, &pipeline::ViewSettings::name);
     region.view.index = static_cast<std::size_t>(view - recipe.views.begin());
     if (view == recipe.views.end()) {
       finding.refuse(region.line, "region.view",
@@ -50,9 +51,9 @@ void resolve_regions(Recipe& recipe, Finding& finding) {
 
 }  // namespace
 
-Result<Recipe> parse_recipe(const std::string& text, const std::string& name) {
+Result<pipeline::Recipe> parse_recipe(const std::string& text, const std::string& name) {
   Finding finding{name, {}};
-  Recipe recipe;
+  pipeline::Recipe recipe;
   read_toml(text, recipe, finding);
   if (!finding.message) {
     check_names(recipe.views, "view", finding);
@@ -64,14 +65,14 @@ Result<Recipe> parse_recipe(const std::string& text, const std::string& name) {
   return recipe;
 }
 
-Result<Recipe> load_recipe(const std::filesystem::path& file, TextFiles& files) {
+Result<pipeline::Recipe> load_recipe(const std::filesystem::path& file, TextFiles& files) {
   return files.read(file, "a TOML file").and_then([&](const std::string& text) {
     return parse_recipe(text, file.string());
   });
 }
 
 std::string recipe_manual() {
-  Recipe recipe;
+  pipeline::Recipe recipe;
   return manual(
       "# The recipe file\n\n"
       "TOML file with the measurement of one job: views, regions, limits and camera settings. "
@@ -82,4 +83,4 @@ std::string recipe_manual() {
       recipe);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -14,7 +14,7 @@
 #include "hal/atomic_file.h"
 #include "proc/optics/named_distortion.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 using optics::Distortion;
@@ -222,4 +222,4 @@ Result<> write_calibration(const std::filesystem::path& file, const Intrinsics& 
   });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -11,7 +11,7 @@
 #include "proc/image/result.h"
 #include "proc/optics/lens.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// ROS' names of distortion models.
 inline constexpr std::array<std::string_view, 4> kDistortionModels{
@@ -44,4 +44,4 @@ Result<std::string> calibration_text(const optics::Intrinsics& intrinsics, const
 Result<> write_calibration(const std::filesystem::path& file, const optics::Intrinsics& intrinsics,
                            const std::string& name, CalibrationFormat format);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -8,7 +8,7 @@
 #include "app/files/toml/toml_text.h"
 #include "hal/atomic_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// New values of a camera's table, and the keys that it loses.
@@ -114,4 +114,4 @@ Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment&
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

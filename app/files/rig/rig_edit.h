@@ -7,7 +7,7 @@
 #include "app/model/alignment/rig_alignment.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// The text of a rig file with the results of an alignment; comments, order and everything else are
 /// kept. `name` and `folder` as for parse_rig(). Errors: a rig that is refused before or after; no
@@ -20,4 +20,4 @@ Result<std::string> aligned_rig(const std::string& text, const std::string& name
 Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment& alignment,
                            const std::filesystem::path& out);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

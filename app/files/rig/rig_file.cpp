@@ -7,7 +7,7 @@
 #include "app/files/toml/manual_writer.h"
 #include "app/files/toml/toml_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// Builds the scene part by part, so that the message has the line of the wrong part.
@@ -148,4 +148,4 @@ std::string rig_manual() {
       rig);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -8,7 +8,7 @@
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Reads and checks a rig file: every camera's projection can be made. Its keys are declared in
 /// rig_settings.h. Relative paths in it are based on the file's folder. The error states file,
@@ -23,4 +23,4 @@ Result<optics::Rig> parse_rig(const std::string& text, const std::string& name,
 /// Manual of all keys in Markdown, generated from the declaration that the loader checks.
 std::string rig_manual();
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -14,7 +14,7 @@
 #include "proc/settings/settings.h"
 
 /// Contents of a rig file, and its keys; rig_file.h converts it to an optics::Rig.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 struct ObstacleSettings : optics::Box {
   std::string name;
@@ -214,4 +214,4 @@ void visit(Visitor& v, RigSettings& rig) {
   v.tables("camera", rig.cameras, 1, kMaxRigCameras, "Cameras that look at the ball");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

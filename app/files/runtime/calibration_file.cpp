@@ -14,7 +14,7 @@
 #include "app/model/status/utc_text.h"
 #include "hal/atomic_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 struct BallCentreSettings {
@@ -180,4 +180,4 @@ void accept(std::vector<CalibrationEntry>& entries, CalibrationEntry entry) {
   entries.push_back(std::move(entry));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -10,7 +10,7 @@
 #include "app/model/alignment/accepted_alignments.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Number of entries that are kept; older ones are dropped.
 inline constexpr std::size_t kMaxCalibrations = 100;
@@ -46,4 +46,4 @@ std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entr
 /// Appends an entry with the next number and the present time.
 void accept(std::vector<CalibrationEntry>& entries, CalibrationEntry entry);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

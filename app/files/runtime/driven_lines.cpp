@@ -11,7 +11,7 @@
 #include "hal/atomic_file.h"
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ void forget_driven_lines(const fs::path& folder) {
   fs::remove(record_in(folder), none);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -8,7 +8,7 @@
 #include "app/ports/lines/line_settings.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Records the GPIO outputs among `lines` in `folder`, runtime_directory() or else the state
 /// folder: after SIGKILL they are set inactive, independent of the files at that time. Error: as
@@ -23,4 +23,4 @@ Result<std::optional<std::vector<LineSettings>>> driven_lines(const std::filesys
 /// Removes the record, because the outputs are inactive. Reentrant.
 void forget_driven_lines(const std::filesystem::path& folder);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

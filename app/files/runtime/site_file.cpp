@@ -9,7 +9,7 @@
 #include "hal/atomic_file.h"
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 std::filesystem::path kept_in(const std::filesystem::path& folder) {
@@ -79,4 +79,4 @@ Result<Resolved> resolve_last_good(const std::filesystem::path& folder,
   return resolve(file, *texts);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -6,7 +6,7 @@
 #include "app/files/resolve.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Path of the configuration file: `given` unless it is empty, else that of the environment's
 /// ORBWATCH_CONFIG, else /etc/orbwatch/site.toml. Must not be called while the environment is
@@ -24,4 +24,4 @@ Result<> keep_last_good(const std::filesystem::path& folder, const Resolved& sit
 Result<Resolved> resolve_last_good(const std::filesystem::path& folder,
                                    const std::filesystem::path& file);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

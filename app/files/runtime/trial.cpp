@@ -10,7 +10,7 @@
 #include "hal/atomic_file.h"
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ Result<> cancel_trial(const fs::path& folder) {
   return fail("no configuration waits for its confirmation");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -11,7 +11,7 @@
 #include "app/files/text/text_file.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// CRC-32 of files by their path; see FileVersion.
 using FileChecksums = std::map<std::filesystem::path, std::uint32_t>;
@@ -83,4 +83,4 @@ Result<std::optional<Trial>> confirmed_trial(const std::filesystem::path& folder
 Result<std::optional<std::vector<std::filesystem::path>>> finish_confirmed(
     const std::filesystem::path& folder);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

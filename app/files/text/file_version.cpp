@@ -11,7 +11,7 @@
 #include "app/model/status/utc_text.h"
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// Name of an account; its number if the name is unknown.
@@ -51,4 +51,4 @@ std::string change_text(const std::string& name, const FileVersion& now) {
   return name + " was changed by " + now.account + " at " + now.time;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// State of a file at one moment, to detect later changes.
 struct FileVersion {
@@ -21,4 +21,4 @@ FileVersion version_of(const std::filesystem::path& file);
 /// `name` is the file's name in it.
 std::string change_text(const std::string& name, const FileVersion& now);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// Limit for the pairs of lines that are compared; the difference of longer texts would not be
@@ -56,4 +56,4 @@ std::string text_difference(const std::string& before, const std::string& after,
   return name + "\n" + text;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

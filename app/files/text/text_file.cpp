@@ -5,7 +5,7 @@
 
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 std::uint32_t checksum_of(const std::string& text, std::uint32_t before) {
   return static_cast<std::uint32_t>(
@@ -21,4 +21,4 @@ Result<std::string> TextFiles::read(const std::filesystem::path& file, const std
   return text;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

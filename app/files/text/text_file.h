@@ -10,7 +10,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Texts by the path of their file.
 using FileTexts = std::map<std::filesystem::path, std::string>;
@@ -48,4 +48,4 @@ class TextFiles {
   std::uint32_t checksum_ = 0;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Keeps a message that quotes a file on one line: control characters become question marks.
 inline std::string one_line(std::string text) {
@@ -44,4 +44,4 @@ struct Finding {
   }
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -19,7 +19,7 @@
 #include "proc/optics/vec.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Visitor that writes a file's manual in Markdown: a table of keys per TOML table.
 class ManualWriter {
@@ -237,4 +237,4 @@ std::string manual(const std::string& introduction, Settings& settings) {
   return text;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

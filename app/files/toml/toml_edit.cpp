@@ -8,7 +8,7 @@
 
 #include "app/files/toml/finding.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 std::size_t line_of_header(const toml::table& table) { return table.source().begin.line; }
@@ -280,4 +280,4 @@ std::size_t TomlEdit::end_of(const toml::table& table) const {
   return end_of_values(last, next_header(last));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -12,7 +12,7 @@
 #include "app/files/toml/toml_parse.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Changes values of a hand-written TOML text; comments, order, blank lines and line ends are kept.
 /// Every change refers to the original text, independent of the others. Thread-bound.
@@ -97,4 +97,4 @@ class TomlEdit {
   std::multimap<const toml::node*, std::string> additions_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

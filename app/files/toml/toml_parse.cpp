@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// Reads the structure of a TOML text, without its values. A text that is not valid TOML may be
@@ -120,4 +120,4 @@ toml::table parse_toml(const std::string& text, const std::string& name) {
   return toml::parse(text, name);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

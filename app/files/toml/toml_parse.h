@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Largest number of dots, braces and brackets around a value: its depth in the tree of tables,
 /// which the library builds and destroys by recursion and limits only for brackets.
@@ -18,4 +18,4 @@ inline constexpr int kDeepestToml = 64;
 /// text is not valid TOML, or it is nested deeper than kDeepestToml. Reentrant.
 toml::table parse_toml(const std::string& text, const std::string& name = {});
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 void TomlReader::require(bool truth, const char* key, const std::string& message) {
   if (truth) return;
@@ -140,4 +140,4 @@ void TomlReader::read(const toml::node& node, const std::string& key, optics::Ma
   value = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

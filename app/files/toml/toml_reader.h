@@ -19,7 +19,7 @@
 #include "proc/optics/vec.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// Visitor that loads: reads one table of a TOML file into a settings struct. Checks types, ranges
 /// and words, and refuses keys that visit() does not name. Thread-bound.
@@ -259,4 +259,4 @@ void read_toml(const std::string& text, Settings& settings, Finding& finding) {
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

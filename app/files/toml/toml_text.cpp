@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 std::string toml_number(double value) {
   char text[32];
@@ -75,4 +75,4 @@ std::string toml_lines(const std::vector<TomlValue>& values) {
   return lines;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -12,7 +12,7 @@
 #include "proc/optics/vec.h"
 
 /// Values in TOML's notation, numbers with 10 digits.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 std::string toml_number(double value);
 std::string toml_list(std::span<const double> values);
@@ -38,4 +38,4 @@ std::vector<TomlValue> toml_values(const optics::Intrinsics& lens);
 
 std::string toml_lines(const std::vector<TomlValue>& values);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

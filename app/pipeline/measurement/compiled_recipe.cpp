@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 Quality quality_of(const signals::Radiometry& radiometry) {
@@ -157,4 +157,4 @@ std::span<const signals::AlarmEvent> CompiledRecipe::watch(hal::TimePoint now, b
   return events;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -17,7 +17,7 @@
 #include "proc/signals/alarm_board.h"
 #include "proc/signals/region_meter.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Recipe with everything that its measurement needs. Recipes share nothing but the memory of
 /// views, so that no result mixes two. Made before the run; then it allocates nothing.
@@ -93,4 +93,4 @@ class CompiledRecipe {
   std::array<AlarmStatus, signals::kMaxAlarms> alarms_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

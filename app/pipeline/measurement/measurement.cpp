@@ -6,7 +6,7 @@
 
 #include "app/model/status/result_number.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 std::vector<std::uint16_t> numbers_of(const std::vector<std::unique_ptr<CompiledRecipe>>& recipes) {
@@ -203,4 +203,4 @@ void Measurement::report(Status& status) const {
   std::ranges::copy(recipe_->alarms(), status.alarms.begin());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

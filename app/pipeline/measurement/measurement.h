@@ -20,7 +20,7 @@
 #include "hal/sync/frame_set.h"
 #include "hal/thread/priority_mutex.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Decides which recipe is measured, which frame sets are results, whether the process is active,
 /// and which alarms are raised.
@@ -127,4 +127,4 @@ class Measurement {
   std::atomic<hal::Clock::rep> trigger_{0};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -12,7 +12,7 @@
 #include "app/pipeline/views/view_settings.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 inline constexpr std::size_t kMaxRecipes = 16;
 
@@ -121,4 +121,4 @@ void visit(Visitor& v, Recipe& recipe) {
            "Camera controls, applied in this order when the recipe is selected");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

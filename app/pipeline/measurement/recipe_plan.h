@@ -11,7 +11,7 @@
 #include "proc/signals/alarm_limits.h"
 #include "proc/signals/region.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Source that decides whether the process is active.
 enum class ActiveSource : std::uint8_t { Always, Input, Command, Detected };
@@ -42,4 +42,4 @@ struct RecipePlan {
   std::size_t process_input = 0;  ///< index of the input, for ActiveSource::Input
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -5,7 +5,7 @@
 
 #include "app/log.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 RecipeSwitch::RecipeSwitch(std::size_t first, Apply apply)
     : apply_(std::move(apply)), set_to_(first) {
@@ -77,4 +77,4 @@ void RecipeSwitch::change(std::size_t wanted) {
   pending_ = Pending{{set_to_, from, changes_}, from};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

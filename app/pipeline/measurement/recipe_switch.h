@@ -12,7 +12,7 @@
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Selects recipes while frames run: sets the cameras on a thread of its own, off the frame path,
 /// and assigns each frame set to a recipe by its exposure. A set exposed after a request never
@@ -79,4 +79,4 @@ class RecipeSwitch {
   hal::Thread thread_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

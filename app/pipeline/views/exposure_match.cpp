@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 optics::ViewProjection panorama(int width, int height) {
@@ -137,4 +137,4 @@ void ExposureMatch::compare() {
   sampled_ = false;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

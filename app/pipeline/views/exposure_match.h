@@ -18,7 +18,7 @@
 #include "hal/thread/shared_threads.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Brings colour cameras that are exposed apart from each other together for display, as `orbwatch
 /// project` does it with two pictures: once a second they are compared where they see the same
@@ -77,4 +77,4 @@ class ExposureMatch {
   hal::SharedThreads::Work comparison_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 /// Row pairs of level 1 in a strip, whole pairs up to the highest level; and rows of the picture.
@@ -119,4 +119,4 @@ void FramePyramids::Camera::end_filling() {
   for (Sharpened& by : sharpened) by.filled = by.wanted;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

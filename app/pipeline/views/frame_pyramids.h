@@ -13,7 +13,7 @@
 #include "proc/image/picture.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// The pictures of one frame set with their mip levels, and sharpened to be shown: made once and
 /// read by every view. The memory for all of it is allocated up front. Lower resolutions are not
@@ -70,4 +70,4 @@ class FramePyramids {
   std::array<const remap::PhotometricTable*, hal::kMaxCameras> matches_{};  ///< by camera
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 Result<optics::ViewProjection> pointed(const ViewPlan& view, const Pointing& pointing) {
@@ -153,4 +153,4 @@ void PanTiltZoom::compile(std::size_t view, const Request& request) {
   std::swap(slot.renderer, renderer);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

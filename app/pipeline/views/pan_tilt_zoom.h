@@ -17,7 +17,7 @@
 #include "proc/optics/rotation.h"
 #include "proc/optics/view_projection.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Where a view looks: all of a ViewSpec but its kind and size, which a view keeps. Degrees.
 struct Pointing {
@@ -108,4 +108,4 @@ class PanTiltZoom {
   hal::SharedThreads::Work compiler_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

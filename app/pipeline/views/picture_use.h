@@ -8,7 +8,7 @@
 #include "hal/sync/frame_set.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// So many different strengths may one camera's picture be sharpened by; each takes a copy of its
 /// sharpened plane.
@@ -49,4 +49,4 @@ class PictureUse {
 /// By camera.
 using PictureUses = std::array<PictureUse, hal::kMaxCameras>;
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

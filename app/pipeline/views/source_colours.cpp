@@ -3,7 +3,7 @@
 
 #include "proc/image/celsius.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 double full_scale(const hal::StreamFormat& format) { return (1 << info(format.format).bits) - 1; }
 
@@ -20,4 +20,4 @@ remap::ColourMap make_colour_map(const remap::ColourMap::Table& table,
   return {table, counts_of(range[0], format), counts_of(range[1], format)};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -6,7 +6,7 @@
 #include "hal/camera.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// The greatest value of a format's samples.
 double full_scale(const hal::StreamFormat& format);
@@ -21,4 +21,4 @@ remap::ColourMap make_colour_map(const remap::ColourMap::Table& table,
                                  const std::array<double, 2>& range,
                                  const hal::StreamFormat& format);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -8,7 +8,7 @@
 #include "app/pipeline/views/view_renderer.h"
 #include "app/pipeline/worker_pool.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 StillView::StillView(PixelFormat format, int width, int height)
     : pixels(picture_bytes(format, row_bytes(format, width), height)),
@@ -41,4 +41,4 @@ StillView render_once(const StillPlan& plan, std::span<const StillSource> source
   return still;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -12,7 +12,7 @@
 #include "proc/optics/view_projection.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// One camera's picture that a still view is made of.
 struct StillSource {
@@ -55,4 +55,4 @@ struct StillView {
 /// caller's thread. `sources`: 1..remap::kMaxSources. Reentrant; not for the frame path.
 StillView render_once(const StillPlan& plan, std::span<const StillSource> sources);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -7,7 +7,7 @@
 
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 hal::BufferPool<View> make_pool(int width, int height, std::size_t count) {
@@ -145,4 +145,4 @@ std::shared_ptr<View> ViewBuffers::prepared(std::shared_ptr<View> view,
   return view;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -13,7 +13,7 @@
 #include "app/pipeline/views/view_plan.h"
 #include "hal/frame/buffer_pool.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Bytes of a buffer that become resident: of a display view its picture, of up to three bytes per
 /// pixel, and its validity; of a measured view the words that are measured in, too.
@@ -70,4 +70,4 @@ class ViewBuffers {
   std::vector<std::string> names_;  ///< by View::index; recipes may be compiled anew
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/pipeline/views/view_channel.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 const View* ViewChannel::render(const hal::FrameSet& set, const FramePyramids& pyramids,
                                 ViewBuffers& buffers, WorkerPool& workers) {
@@ -22,4 +22,4 @@ ViewPtr ViewChannel::take() {
   return is_shared_ ? rendered : nullptr;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

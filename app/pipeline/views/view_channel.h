@@ -12,7 +12,7 @@
 #include "app/pipeline/worker_pool.h"
 #include "hal/sync/frame_set.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// A view on its way from frame sets to the sinks, measured or displayed. While they hold every
 /// buffer of its size, a display view is skipped; a measured one is rendered into one that no sink
@@ -56,4 +56,4 @@ class ViewChannel {
   bool is_shared_ = false;  ///< sinks get rendered_
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -5,7 +5,7 @@
 
 #include "app/pipeline/views/source_colours.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 ViewColours::ViewColours(std::span<const ViewPlan> views, std::vector<remap::ColourMap::Table> maps)
     : maps_(std::move(maps)), slots_(views.size()) {
@@ -69,4 +69,4 @@ ChosenColours ViewColours::exchange(std::size_t view) {
   return slot.in_use;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -13,7 +13,7 @@
 #include "app/pipeline/views/view_plan.h"
 #include "hal/thread/priority_mutex.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Colours that a view shows a source in.
 struct ShownColours {
@@ -70,4 +70,4 @@ class ViewColours {
   std::vector<Slot> slots_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -14,7 +14,7 @@
 #include "proc/optics/view_projection.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// How the sources of a view are merged where several see a pixel.
 enum class Combine {
@@ -69,4 +69,4 @@ inline std::optional<std::size_t> ViewPlan::raw() const {
   return static_cast<std::size_t>(found - sources.begin());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -9,7 +9,7 @@
 #include "proc/optics/resolution.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 bool ViewRenderer::is_supported(PixelFormat format) { return format != PixelFormat::Rgb16; }
 
@@ -197,4 +197,4 @@ std::vector<remap::PhotometricMatch> ViewRenderer::compare_sources(
   return remap::match_photometry<T>(alone, remap::transfer_of(format));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -15,7 +15,7 @@
 #include "hal/sync/frame_set.h"
 #include "proc/remap/remap.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Where a view's pixels go; each of the view's size.
 struct RenderTarget {
@@ -84,4 +84,4 @@ class ViewRenderer {
   std::vector<remap::PhotometricTable> matches_;  ///< by source, in place of that
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

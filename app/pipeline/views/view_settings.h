@@ -14,7 +14,7 @@
 #include "proc/remap/remap.h"
 #include "proc/settings/settings.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// What a camera's picture is sharpened by unless stated: about as sharp as bicubic interpolation
 /// would be.
@@ -131,4 +131,4 @@ void visit(Visitor& v, MeasuredViewSettings& view) {
   v.required("measured", view.measured, "Name of the view's camera that is measured");
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -34,26 +34,20 @@ struct DdsSettings {
   std::string prefix = "orbwatch";  ///< topics are rt/<prefix>/...
   std::string name{};               ///< name in the fleet list; empty: the host name
   /// Nullopt: every participant of the domain is admitted.
-  std::optional<SecuritySettings> security{};
+  std::optional<dds::SecuritySettings> security{};
   std::optional<bool> commands{};  ///< accept commands; nullopt: only with security
   JpegSettings jpeg{};
   /// Cyclone DDS' network settings, such as interfaces and peers; empty: those of CYCLONEDDS_URI.
   std::filesystem::path profile{};
-  RosGeneration ros = RosGeneration::Iron;
+  dds::RosGeneration ros = dds::RosGeneration::Iron;
 };
 
 inline bool takes_commands(const DdsSettings& dds) {
   return dds.enabled && dds.commands.value_or(dds.security.has_value());
 }
 
-inline constexpr std::array kRosGenerations{Word{"humble", RosGeneration::Humble},
-                                            Word{"iron", RosGeneration::Iron}};
-
-template <class Visitor>
-void visit(Visitor& v, SecuritySettings& security) {
-  v.required("folder", security.folder,
-             "Folder with certificate, key and permissions, made by `orbwatch dds-keys`");
-}
+inline constexpr std::array kRosGenerations{Word{"humble", dds::RosGeneration::Humble},
+                                            Word{"iron", dds::RosGeneration::Iron}};
 
 template <class Visitor>
 void visit(Visitor& v, DdsSettings& dds) {
@@ -83,11 +77,11 @@ std::string commanders(const DdsSettings& settings);
 /// True: it receives the notices of the domain's appliances.
 inline bool fills_fleet(const DdsSettings& settings) { return settings.enabled; }
 
-/// Checks the keys of an enabled participant, if there are any. Error: as check_security().
+/// Checks the keys of an enabled participant, if there are any. Error: as dds::check_security().
 /// Reentrant.
 inline Result<> check_keys(const DdsSettings& settings, Dates dates) {
   if (!settings.enabled || !settings.security) return {};
-  return check_security(*settings.security, settings.domain, dates);
+  return dds::check_security(*settings.security, settings.domain, dates);
 }
 
 /// `identity` is completed by name and prefix. `views` and `cameras` by place in `names`.

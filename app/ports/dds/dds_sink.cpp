@@ -9,7 +9,7 @@
 #include "app/ports/dds/participant/dds_log.h"
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// Period of the checks of the host's addresses.
@@ -331,6 +331,10 @@ std::vector<InterfaceMetric> DdsSink::metrics() const {
   return all;
 }
 
+}  // namespace orbwatch::app::dds
+
+namespace orbwatch::app {
+
 std::string commanders(const DdsSettings& settings) {
   if (!takes_commands(settings)) return {};
   return "over DDS from " +
@@ -349,9 +353,9 @@ std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& 
   ApplianceIdentity own = identity;
   own.name = settings.name;
   own.prefix = settings.prefix;
-  return std::make_unique<DdsSink>(settings, names, commands.handler, network_addresses,
-                                   commands.record, background, std::move(own), fleet, views,
-                                   cameras);
+  return std::make_unique<dds::DdsSink>(settings, names, commands.handler, dds::network_addresses,
+                                        commands.record, background, std::move(own), fleet, views,
+                                        cameras);
 }
 
 }  // namespace orbwatch::app

@@ -29,7 +29,7 @@
 #include "hal/thread/mailbox.h"
 #include "hal/thread/thread.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Publishes views and cameras' pictures as sensor_msgs/Image and CompressedImage, the status as
 /// ProcessState and diagnostics, and events, under ROS 2 names as a ROS 2 node, and executes
@@ -135,4 +135,4 @@ class DdsSink final : public Sink {
   CommandService commands_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

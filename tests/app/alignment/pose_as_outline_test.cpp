@@ -25,9 +25,9 @@ optics::Rig registered(const optics::Rig& rig) {
   entry.alignment.cameras.push_back({.camera = turnable->name,
                                      .outline = turnable->outline,
                                      .registration = turnable->registration});
-  accept(entries, entry);
-  EXPECT_TRUE(save_calibrations(folder / "calibration.toml", entries));
-  TextFiles files;
+  files::accept(entries, entry);
+  EXPECT_TRUE(files::save_calibrations(folder / "calibration.toml", entries));
+  files::TextFiles files;
   optics::Rig read = rig;
   const auto applied =
       apply(load_calibrations(folder / "calibration.toml", files)->front().alignment, read);

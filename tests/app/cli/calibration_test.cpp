@@ -13,20 +13,21 @@ namespace {
 class Calibration : public CommandLine {
  protected:
   void SetUp() override {
-    write("rig.toml", app::kRig);
-    write("site.toml", "state_folder = \"state\"\n" + app::kValid);
+    write("rig.toml", app::files::kRig);
+    write("site.toml", "state_folder = \"state\"\n" + app::files::kValid);
     std::filesystem::create_directory(path("state"));
     std::vector<app::CalibrationEntry> entries;
     for (const double radius : {31.0, 32.0}) {
       app::CalibrationEntry entry;
       entry.method = "detect";
       entry.quality = "confidence 0.9";
-      entry.rig = app::rig_checksum(path("rig.toml")).value_or(0);
+      entry.rig = app::files::rig_checksum(path("rig.toml")).value_or(0);
       entry.alignment.cameras.push_back(
           {.camera = "a", .outline = optics::Outline{{50, 40}, radius, radius, 0}});
-      app::accept(entries, entry);
+      app::files::accept(entries, entry);
     }
-    ASSERT_TRUE(app::save_calibrations(app::calibration_file(path("state")), entries));
+    ASSERT_TRUE(
+        app::files::save_calibrations(app::files::calibration_file(path("state")), entries));
   }
 
   int run(std::vector<std::string> arguments) {
@@ -36,7 +37,7 @@ class Calibration : public CommandLine {
   }
 
   double radius() {
-    const auto site = app::resolve(path("site.toml"));
+    const auto site = app::files::resolve(path("site.toml"));
     EXPECT_TRUE(site) << site.error().message;
     return site ? site->rig.cameras[0].outline->rx : 0;
   }
@@ -80,7 +81,7 @@ TEST_F(Calibration, RefusesWhatItDoesNotHave) {
   EXPECT_NE(said.find("there is no alignment 7"), std::string::npos) << said;
   EXPECT_EQ(run({"reset", "spare"}), 1);
   EXPECT_EQ(run({"forget"}), 2);
-  write("rig.toml", app::kRig + "# changed\n");
+  write("rig.toml", app::files::kRig + "# changed\n");
   EXPECT_EQ(run({"restore", "1"}), 1);
   EXPECT_NE(said.find("another rig file"), std::string::npos) << said;
 }

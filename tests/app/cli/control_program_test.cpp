@@ -54,9 +54,9 @@ class Control : public CommandLine {
   const int domain = 1 + getpid() % 100;
   std::mutex mutex;
   std::vector<Command> commands;
-  app::DdsSink sink{{.domain = domain, .commands = true},
-                    app::tests::make_names(),
-                    [this](const Command& command) { return carry_out(command); }};
+  app::dds::DdsSink sink{{.domain = domain, .commands = true},
+                         app::tests::make_names(),
+                         [this](const Command& command) { return carry_out(command); }};
 };
 
 TEST_F(Control, CommandEndsWithWhatTheMachineSays) {

@@ -20,8 +20,8 @@ using testing::Not;
 class Password : public CommandLine {
  protected:
   void SetUp() override {
-    write("rig.toml", app::kRig);
-    write("site.toml", "state_folder = \"state\"\n" + app::kValid);
+    write("rig.toml", app::files::kRig);
+    write("site.toml", "state_folder = \"state\"\n" + app::files::kValid);
   }
   int set(const std::string& password, const std::vector<std::string>& more = {}) {
     write("typed", password + "\n");
@@ -79,7 +79,7 @@ TEST_F(Password, ShowsFingerprintAndCodeAsTheyAreAndChangesNothing) {
     return said;
   };
   EXPECT_THAT(show(), HasSubstr("HTTPS: not served"));
-  write("site.toml", "state_folder = \"state\"\n" + app::kValid +
+  write("site.toml", "state_folder = \"state\"\n" + app::files::kValid +
                          "[web]\nenabled = true\naddress = \"0.0.0.0\"\n");
   EXPECT_THAT(show(), AllOf(HasSubstr("no certificate yet"), HasSubstr("no code")));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "state/certificate.pem"));

@@ -101,7 +101,7 @@ TEST_F(Place, PlacesCamerasTogether) {
 
 TEST_F(Place, WritesTheRigAndKeepsWhatAPersonWrote) {
   ASSERT_EQ(place({"-o", path("placed.toml")}), 0) << said;
-  const auto rig = app::load_rig(path("placed.toml"));
+  const auto rig = app::files::load_rig(path("placed.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   for (std::size_t c = 0; c < 2; ++c) {
     ASSERT_TRUE(rig->cameras[c].pose);
@@ -132,7 +132,7 @@ optics::Vec2 seen_in_view(const optics::BallProjection& ball, const optics::Vec2
 }
 
 TEST_F(Place, TakesPointsMarkedInAView) {
-  const auto rig = app::load_rig(path("rig.toml"));
+  const auto rig = app::files::load_rig(path("rig.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   const auto ball = optics::ball_projection(*rig, rig->cameras[0]);
   ASSERT_TRUE(ball) << ball.error().message;

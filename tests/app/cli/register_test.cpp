@@ -111,7 +111,7 @@ TEST_F(Register, SaysHowOneCameraStandsToTheOther) {
   EXPECT_EQ(json["covariance"].size(), 9U);
   ASSERT_EQ(run({"register", "--help"}), 0);
   expect_documented(json, said);
-  const auto rig = app::load_rig(path("new.toml"));
+  const auto rig = app::files::load_rig(path("new.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_LT(align::angle_between(rig->cameras[1].registration, found), 1e-6);
 }
@@ -121,7 +121,7 @@ TEST_F(Register, ACameraWithAPoseIsTurnedAboutTheBall) {
   auto arguments = both();
   arguments.insert(arguments.end(), {"-o", path("rig.toml")});
   ASSERT_EQ(run(arguments), 0) << said;
-  const auto rig = app::load_rig(path("rig.toml"));
+  const auto rig = app::files::load_rig(path("rig.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   ASSERT_TRUE(rig->cameras[1].pose);
   const optics::Pose& pose = *rig->cameras[1].pose;

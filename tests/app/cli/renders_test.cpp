@@ -208,7 +208,7 @@ class TwoCameras : public Renders {
 
   /// Camera with more pixels per degree: 0 A, 1 B.
   cv::Mat sharper() {
-    const auto rig = app::load_rig(folder / "far.toml").value();
+    const auto rig = app::files::load_rig(folder / "far.toml").value();
     const auto a = optics::ball_projection(rig, rig.cameras[0]).value();
     const auto b = optics::ball_projection(rig, rig.cameras[1]).value();
     const auto view = optics::ViewProjection::make(

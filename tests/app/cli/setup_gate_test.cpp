@@ -47,7 +47,7 @@ struct Projections {
 Projections truth(const cv::FileStorage& file, bool table_known = true) {
   const RenderedScene scene("near");
   optics::Rig rig =
-      app::parse_rig(scene.rig(RenderedScene::Known::BoxAndTable), "rig.toml", "").value();
+      app::files::parse_rig(scene.rig(RenderedScene::Known::BoxAndTable), "rig.toml", "").value();
   if (!table_known) rig.scene.obstacles.clear();
   optics::RigCamera &colour = rig.cameras[0], &thermal = rig.cameras[2];
   const cv::FileNode seen = file["sequences"]["seq_spark"]["camera"];
@@ -123,7 +123,7 @@ class SetupGate : public CommandLine {
 
   /// Degrees rms, thermal on colour.
   double error(const cv::FileStorage& file) {
-    const auto rig = app::load_rig(path("site/rig.toml"));
+    const auto rig = app::files::load_rig(path("site/rig.toml"));
     EXPECT_TRUE(rig && rig->cameras.size() == 2U) << said;
     if (!rig || rig->cameras.size() != 2U) return 180;
     const auto colour = optics::ball_projection(*rig, rig->cameras[0]);
@@ -183,7 +183,7 @@ TEST_F(SetupGate, ItsTableNeedNotBeKnown) {
   EXPECT_LE(error(file), 1) << said;
 
   EXPECT_NE(said.find("missing: whether there is a box of"), std::string::npos) << said;
-  const auto rig = app::load_rig(path("site/rig.toml"));
+  const auto rig = app::files::load_rig(path("site/rig.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   ASSERT_EQ(rig->scene.obstacles.size(), 1U);
   const auto top = file["table"]["hi"][2].real();

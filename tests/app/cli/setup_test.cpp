@@ -31,7 +31,7 @@ class Setup : public CommandLine {
   }
 
   optics::Rig rig() {
-    const auto rig = app::load_rig(path("site/rig.toml"));
+    const auto rig = app::files::load_rig(path("site/rig.toml"));
     EXPECT_TRUE(rig) << rig.error().message;
     return rig.value_or(optics::Rig{});
   }

@@ -20,9 +20,9 @@ using testing::HasSubstr;
 class TwoMachines : public CommandLine {
  protected:
   void SetUp() override {
-    write("rig.toml", app::kRig);
-    write("first.toml", app::kValid);
-    write("second.toml", app::kValid + "[console]\nenabled = true\n");
+    write("rig.toml", app::files::kRig);
+    write("first.toml", app::files::kValid);
+    write("second.toml", app::files::kValid + "[console]\nenabled = true\n");
     ASSERT_TRUE(app::record_owner(state(), path("first.toml")));
     ::setenv("STATE_DIRECTORY", state().c_str(), 1);
   }

@@ -110,7 +110,7 @@ TEST_F(AlignmentCommands, IsNotAcceptedWhileTheFilesAreWrong) {
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
   EXPECT_TRUE(says(daemon, "not accepted: ")) << daemon.output();
   EXPECT_TRUE(proposes(daemon, ProposalState::Ready)) << "it is not lost";
-  EXPECT_FALSE(std::filesystem::exists(app::calibration_file(folder / state_folder)));
+  EXPECT_FALSE(std::filesystem::exists(app::files::calibration_file(folder / state_folder)));
   std::ofstream(folder / "recipe.toml") << kRecordingRecipe;
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
   EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
@@ -135,7 +135,7 @@ TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {
   EXPECT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
   ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
   ASSERT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
-  const auto accepted = app::resolve((folder / "site.toml").string());
+  const auto accepted = app::files::resolve((folder / "site.toml").string());
   ASSERT_TRUE(accepted) << accepted.error().message;
   const optics::RigCamera& camera = accepted->rig.cameras.front();
   EXPECT_NEAR(camera.outline->centre.u, 202.25, 1e-9);
@@ -147,7 +147,7 @@ TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {
   ASSERT_TRUE(proposes(daemon, ProposalState::None)) << daemon.output();
   ASSERT_EQ(command(daemon, CommandCode::RevertAlignment, {0}), CommandResult::Done);
   ASSERT_TRUE(says(daemon, "camera colour: alignment 2 of ")) << daemon.output();
-  const auto reverted = app::resolve((folder / "site.toml").string());
+  const auto reverted = app::files::resolve((folder / "site.toml").string());
   ASSERT_TRUE(reverted) << reverted.error().message;
   EXPECT_NEAR(reverted->rig.cameras.front().outline->centre.u, 205.3, 1e-9);
   ASSERT_EQ(command(daemon, CommandCode::RevertAlignment, {0}), CommandResult::Done);
@@ -163,8 +163,9 @@ class AlignmentOfAnotherRig : public AlignmentCommands {
     ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
   }
   std::vector<app::CalibrationEntry> accepted() const {
-    app::TextFiles files;
-    return app::load_calibrations(app::calibration_file(folder / state_folder), files).value();
+    app::files::TextFiles files;
+    return app::files::load_calibrations(app::files::calibration_file(folder / state_folder), files)
+        .value();
   }
   static std::string moved_rig() {
     std::string rig = kRecordingRig;
@@ -188,15 +189,15 @@ TEST_F(AlignmentOfAnotherRig, IsNotAcceptedAfterTheRigFileWasEdited) {
 TEST_F(AlignmentOfAnotherRig, IsNotAcceptedInATrial) {
   ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
   const std::string config = site();
-  const app::Trial trial{config, {{folder / "rig.toml", moved_rig()}}, 3600};
-  ASSERT_TRUE(app::request_trial(folder.path(), trial));
+  const app::files::Trial trial{config, {{folder / "rig.toml", moved_rig()}}, 3600};
+  ASSERT_TRUE(app::files::request_trial(folder.path(), trial));
   Subprocess daemon = start(config);
   ::unsetenv("STATE_DIRECTORY");
   propose(daemon);
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
   EXPECT_TRUE(says(daemon, "a new configuration is on trial")) << daemon.output();
   EXPECT_TRUE(accepted().empty());
-  ASSERT_TRUE(app::confirm_trial(folder.path()));
+  ASSERT_TRUE(app::files::confirm_trial(folder.path()));
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
   EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
 }
@@ -342,7 +343,7 @@ TEST_F(PlacementCommands, ACameraIsPlacedByALampThatTheMachineMoves) {
   ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
   ASSERT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
   EXPECT_TRUE(says(daemon, "place by 6 points")) << daemon.output();
-  const auto site = app::resolve((folder / "site.toml").string());
+  const auto site = app::files::resolve((folder / "site.toml").string());
   ASSERT_TRUE(site) << site.error().message;
   const optics::RigCamera& placed = site->rig.cameras.front();
   ASSERT_TRUE(placed.pose);
@@ -375,7 +376,7 @@ TEST_F(PlacementCommands, ACameraIsPlacedByPointsThatSomebodyPicked) {
   ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
   ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
   ASSERT_TRUE(says(daemon, "place by 6 points")) << daemon.output();
-  const auto site = app::resolve((folder / "site.toml").string());
+  const auto site = app::files::resolve((folder / "site.toml").string());
   ASSERT_TRUE(site) << site.error().message;
   ASSERT_TRUE(site->rig.cameras.front().pose);
   EXPECT_LT(norm(site->rig.cameras.front().pose->position - machine.cameras.front().pose.position),

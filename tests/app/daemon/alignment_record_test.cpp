@@ -14,21 +14,21 @@
 #include "tests/app/files/machine_files.h"
 #include "tests/support/service_user.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Accepted : public ConfigurationFile {
+class Accepted : public files::ConfigurationFile {
  protected:
   Accepted() {
-    std::ofstream(folder / "site.toml") << "state_folder = \"state\"\n" << kValid;
+    std::ofstream(folder / "site.toml") << "state_folder = \"state\"\n" << files::kValid;
     fs::create_directory(folder / "state");
   }
 
-  Resolved read() const { return resolve(folder / "site.toml").value(); }
+  files::Resolved read() const { return files::resolve(folder / "site.toml").value(); }
   std::vector<CalibrationEntry> entries() const {
-    TextFiles files;
+    files::TextFiles files;
     return load_calibrations(file, files).value();
   }
   static CalibrationEntry outline_of(double radius) {
@@ -40,14 +40,14 @@ class Accepted : public ConfigurationFile {
     return entry;
   }
 
-  const fs::path file = calibration_file(folder / "state");
+  const fs::path file = files::calibration_file(folder / "state");
 };
 
 TEST_F(Accepted, AreForTheRigThatRunsWhateverItsFileSays) {
-  const Resolved running = read();
+  const files::Resolved running = read();
   AlignmentRecord accepted(running);
   ASSERT_TRUE(accepted.add(outline_of(31)));
-  std::ofstream(folder / "rig.toml") << kRig << "# edited\n";
+  std::ofstream(folder / "rig.toml") << files::kRig << "# edited\n";
   ASSERT_TRUE(accepted.add(outline_of(32)));
   EXPECT_EQ(entries().back().rig, running.rig_checksum);
   EXPECT_TRUE(read().alignments.empty()) << "none is for the rig of now";
@@ -57,7 +57,7 @@ TEST_F(Accepted, AreForTheRigThatRunsWhateverItsFileSays) {
 }
 
 TEST_F(Accepted, AreNotLostWhereOthersChangeThemAtTheSameTime) {
-  const Resolved running = read();
+  const files::Resolved running = read();
   constexpr int kEach = 25;
   constexpr int kWriters = 4;
   std::vector<std::thread> writers;
@@ -76,9 +76,9 @@ TEST_F(Accepted, AreNotLostWhereOthersChangeThemAtTheSameTime) {
 /// Programs of earlier versions that root ran left such a file.
 TEST_F(Accepted, AreKeptAsideWhereTheServiceMayNotReadThem) {
   ORBWATCH_WITHOUT_ROOT_SKIPPED();
-  const Resolved running = read();
+  const files::Resolved running = read();
   ASSERT_TRUE(AlignmentRecord(running).add(outline_of(31)));
-  const Resolved with_it = read();
+  const files::Resolved with_it = read();
   orbwatch::tests::give_to_service(folder.path());
   orbwatch::tests::give_to_service(folder / "state");
   fs::permissions(file, fs::perms(0600));  // root's
@@ -93,4 +93,4 @@ TEST_F(Accepted, AreKeptAsideWhereTheServiceMayNotReadThem) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -33,15 +33,15 @@ void operator delete(void* memory) noexcept {
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;
 
 /// Demonstration with a measured view of that size.
-Resolved site() {
+files::Resolved site() {
   auto site = demo();
-  ViewSettings& view = site.recipes.front().views[0];
+  pipeline::ViewSettings& view = site.recipes.front().views[0];
   view.width = kWidth;
   view.height = kHeight;
   return site;
@@ -55,7 +55,7 @@ std::size_t most_used_by(const std::function<void()>& work) {
 }
 
 TEST(CheckSite, NeedsNoMemoryOfARun) {
-  const Resolved checked = site();
+  const files::Resolved checked = site();
   constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
   const std::size_t check = most_used_by([&] { EXPECT_TRUE(check_site(checked, Dates::Checked)); });
   EXPECT_LT(check, kPixels) << "nothing of a view's size";
@@ -68,4 +68,4 @@ TEST(CheckSite, NeedsNoMemoryOfARun) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -12,7 +12,7 @@
 #include "tests/support/registers.h"
 
 /// Measures from a PLC's command over Modbus to the picture that shows it.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Records the pointing of the newest picture.
@@ -42,14 +42,14 @@ class NewestPointing : public Sink {
 };
 
 TEST(CommandToEffect, APointedViewIsInTheNextFrame) {
-  PipelinePlan plan;
-  auto hand = std::make_unique<HandCamera>("camera", PixelFormat::Grey);
-  HandCamera& camera = *hand;
+  pipeline::PipelinePlan plan;
+  auto hand = std::make_unique<pipeline::HandCamera>("camera", PixelFormat::Grey);
+  pipeline::HandCamera& camera = *hand;
   plan.formats.push_back(camera.configure({}).value());
   plan.cameras.push_back(std::move(hand));
-  plan.views.push_back(view_plan(kLeft, optics::ViewKind::Perspective, kHome));
+  plan.views.push_back(view_plan(pipeline::kLeft, optics::ViewKind::Perspective, pipeline::kHome));
   plan.view_count = 1;
-  Pipeline pipeline(std::move(plan));
+  pipeline::Pipeline pipeline(std::move(plan));
   ModbusSettings settings;
   settings.address = "127.0.0.1";
   settings.port = 0;
@@ -87,4 +87,4 @@ TEST(CommandToEffect, APointedViewIsInTheNextFrame) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -182,7 +182,8 @@ TEST_F(Configured, GoesBackWhenCancelled) {
 TEST_F(Configured, EndsWhereATrialWasRequestedJustBefore) {
   Subprocess daemon = run();
   manager.await("READY=1");
-  ASSERT_TRUE(app::request_trial(folder.path(), {.site = config, .texts = {}, .seconds = 3600}));
+  ASSERT_TRUE(
+      app::files::request_trial(folder.path(), {.site = config, .texts = {}, .seconds = 3600}));
   daemon.send(SIGTERM);
   manager.await("STOPPING=1");
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
@@ -193,12 +194,13 @@ TEST_F(Configured, RefusesARequestForAnotherConfigurationWithoutARestart) {
   Subprocess daemon = run();
   manager.await("READY=1");
   for (const char* other : {"/etc/orbwatch/second/site.toml", ""}) {
-    ASSERT_TRUE(app::request_trial(folder.path(), {.site = other, .texts = {}, .seconds = 3600}));
-    ASSERT_TRUE(eventually(daemon, [&] { return !app::is_trial_requested(folder.path()); }));
+    ASSERT_TRUE(
+        app::files::request_trial(folder.path(), {.site = other, .texts = {}, .seconds = 3600}));
+    ASSERT_TRUE(eventually(daemon, [&] { return !app::files::is_trial_requested(folder.path()); }));
   }
   std::ofstream(folder / "trial.json") << "{";
   ASSERT_TRUE(says(daemon, "trial.json: is damaged")) << daemon.output();
-  EXPECT_FALSE(app::is_trial_requested(folder.path()));
+  EXPECT_FALSE(app::files::is_trial_requested(folder.path()));
   EXPECT_THAT(daemon.output(), HasSubstr("it is for /etc/orbwatch/second/site.toml"));
   EXPECT_THAT(daemon.output(), testing::Not(HasSubstr("restarts")));
 }

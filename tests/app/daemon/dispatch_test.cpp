@@ -15,13 +15,13 @@
 #include "tests/app/pipeline/views/thermal_view.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using std::chrono::seconds;
 
 /// Camera that can also be triggered to expose.
-class TriggeredCamera : public HandCamera {
+class TriggeredCamera : public pipeline::HandCamera {
  public:
   explicit TriggeredCamera(std::string name) : HandCamera(std::move(name), PixelFormat::Y16) {}
   Result<> trigger() override {
@@ -63,7 +63,7 @@ class Dispatch : public testing::Test {
     pulse.back_end = LineKind::Simulated;
     pulse.wire.address.name = "OUT";
     lines = std::make_unique<Lines>(std::vector{pulse});
-    PipelinePlan plan;
+    pipeline::PipelinePlan plan;
     for (const hal::TriggerMode mode : modes) {
       auto camera = std::make_unique<TriggeredCamera>("camera " + std::to_string(cameras.size()));
       plan.formats.push_back(camera->configure({}).value());
@@ -75,7 +75,8 @@ class Dispatch : public testing::Test {
     }
     plan.deadline = seconds(20);
     plan.sync.window = plan.sync.max_wait = std::chrono::milliseconds(1);
-    plan.recipes.push_back(compiled(recipe_plan(thermal_view(0, "measured"), 30000, 0.04)));
+    plan.recipes.push_back(
+        compiled(recipe_plan(pipeline::thermal_view(0, "measured"), 30000, 0.04)));
     plan.view_count = 1;
     pipeline.emplace(std::move(plan));
     ASSERT_TRUE(lines->start());
@@ -118,7 +119,7 @@ class Dispatch : public testing::Test {
   }
 
   ResultSink sink;
-  std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
+  std::optional<pipeline::Pipeline> pipeline;  // outlives the lines, which trigger its cameras
   std::unique_ptr<Lines> lines;
   std::vector<TriggeredCamera*> cameras;
   orbwatch::tests::TemporaryFolder folder;
@@ -126,7 +127,7 @@ class Dispatch : public testing::Test {
   std::uint64_t sets = 0;
   int restarts = 0;
   bool may_restart = true;
-  const Resolved site{};  // without cameras
+  const files::Resolved site{};  // without cameras
   const AlignedSite aligned{};
   AlignmentRecord accepted{site};
   CameraWatch watch{aligned, folder.path(), hal::SharedThreads::alone()};
@@ -260,4 +261,4 @@ TEST_F(Dispatch, AlignsNoCameraThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

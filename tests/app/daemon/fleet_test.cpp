@@ -69,15 +69,15 @@ camera = "colour"
 
 /// Reader of the domain, by a participant of its own on the present thread's computer.
 struct Reader {
-  Reader() : participant(app::Participant::join(0).value()) {
+  Reader() : participant(app::dds::Participant::join(0).value()) {
     EXPECT_TRUE(reader.open(participant.entity()));
   }
 
   std::vector<Fleet::Entry> list() { return fleet.list(Clock::now()); }
 
   Fleet fleet;
-  app::Participant participant;
-  app::FleetReader reader{fleet};
+  app::dds::Participant participant;
+  app::dds::FleetReader reader{fleet};
 };
 
 std::ptrdiff_t present(const std::vector<Fleet::Entry>& entries) {

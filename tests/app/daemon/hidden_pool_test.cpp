@@ -17,7 +17,7 @@
 
 /// Reports while the nozzle hides the melt pool of the simulated machine for a part of each lap and
 /// sparks of the same temperature fly: random scenes.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using optics::Vec3;
@@ -167,4 +167,4 @@ TEST(HiddenPool, IsNotReportedAndNoSparkIsTakenForIt) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -12,7 +12,7 @@
 #include "tests/app/daemon/simulated_scene.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 inline constexpr double kKelvinPerCount = 0.04;
 inline double counts(double celsius) { return (celsius + 273.15) / kKelvinPerCount; }
@@ -54,9 +54,9 @@ class MeasuredMachine {
   const signals::RegionMeter& meter() const { return meter_; }
 
  private:
-  ViewPlan plan(const simulation::Pinhole& pinhole, const optics::ViewSpec& view) const {
-    ViewPlan plan{0,  "region", optics::ViewProjection::make(view, projection_).value(), {}, {},
-                  {}, 0};
+  pipeline::ViewPlan plan(const simulation::Pinhole& pinhole, const optics::ViewSpec& view) const {
+    pipeline::ViewPlan plan{
+        0, "region", optics::ViewProjection::make(view, projection_).value(), {}, {}, {}, 0};
     plan.sources.push_back({0,
                             {PixelFormat::Y16, {}, pinhole.width, pinhole.height, 30},
                             projection_,
@@ -70,9 +70,9 @@ class MeasuredMachine {
   optics::BallProjection projection_;
   simulation::Renderer renderer_;
   hal::FramePool buffers_;
-  RenderedView view_;
-  WorkerPool workers_;
+  pipeline::RenderedView view_;
+  pipeline::WorkerPool workers_;
   signals::RegionMeter meter_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

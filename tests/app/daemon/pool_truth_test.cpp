@@ -17,7 +17,7 @@
 
 /// Compares measurements of the melt pool with the simulated machine's truth, over random scenes:
 /// pool, ball, camera, view and region.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using optics::Vec3;
@@ -317,4 +317,4 @@ TEST(PoolWithNoise, OfAPercentOfTheRangeIsStillMeasured) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -11,7 +11,7 @@
 #include "tests/support/registers.h"
 
 /// Compares registers read by a PLC with the simulated machine.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using optics::Vec3;
@@ -102,4 +102,4 @@ TEST_F(RegisterTruth, SpatterRateFollowsTheSparks) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

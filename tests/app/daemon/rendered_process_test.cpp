@@ -51,7 +51,7 @@ class MeasuredSequence {
     std::memcpy(buffer->memory, picture_.data, picture_.total() * picture_.elemSize());
     hal::FrameSet set;
     set.frames[0] = buffer;
-    app::WorkerPool workers(0);
+    app::pipeline::WorkerPool workers(0);
     const app::View& view = view_.render(set, workers);
     const double seconds = static_cast<double>(number) / sequence_.frame_rate();
     return view.radiometric.empty() ? meter_.measure(view.luminance, view.validity, seconds)
@@ -68,9 +68,9 @@ class MeasuredSequence {
   }
 
  private:
-  static app::ViewPlan plan(const RenderedSequence& sequence, PixelFormat format) {
+  static app::pipeline::ViewPlan plan(const RenderedSequence& sequence, PixelFormat format) {
     const cv::Mat first = cv::imread(sequence.frames()[0].picture.string(), cv::IMREAD_UNCHANGED);
-    app::ViewPlan plan{0, "process", process_view(), {}, {}, {}, 0};
+    app::pipeline::ViewPlan plan{0, "process", process_view(), {}, {}, {}, 0};
     plan.interpolation = remap::Interpolation::Area;
     plan.sources.push_back({0,
                             {format, {}, first.cols, first.rows, sequence.frame_rate()},
@@ -82,7 +82,7 @@ class MeasuredSequence {
 
   const RenderedSequence& sequence_;
   PixelFormat format_;
-  app::RenderedView view_;
+  app::pipeline::RenderedView view_;
   signals::RegionMeter meter_;
   cv::Mat picture_;
 };

@@ -205,11 +205,11 @@ TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
   entries[0].time = "2026-11-25T10:00:00Z";
   entries[0].method = "by hand";
   entries[0].quality = "good";
-  entries[0].rig = app::rig_checksum(folder / "rig.toml").value();
+  entries[0].rig = app::files::rig_checksum(folder / "rig.toml").value();
   entries[0].alignment.cameras.push_back({.camera = "colour"});  // unchanged from the rig
-  const fs::path file = app::calibration_file(folder / state_folder);
+  const fs::path file = app::files::calibration_file(folder / state_folder);
   fs::create_directories(file.parent_path());
-  ASSERT_TRUE(app::save_calibrations(file, entries));
+  ASSERT_TRUE(app::files::save_calibrations(file, entries));
   const std::string good = contents(file);
   const std::string in_force = "camera colour: alignment 1 of 2026-11-25T10:00:00Z counts";
   {

@@ -9,7 +9,7 @@
 #include "proc/optics/scene_proxy.h"
 #include "proc/signals/region.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 
 inline optics::Box box(const simulation::Box& body) { return {body.lo, body.hi}; }
 
@@ -41,4 +41,4 @@ inline optics::BallProjection projection_of(const simulation::Pinhole& pinhole,
       .value();
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -10,7 +10,7 @@
 #include "tests/app/daemon/measured_machine.h"
 
 /// Compares measured sparks with those of the simulated machine.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using optics::Vec3;
@@ -140,4 +140,4 @@ TEST(Spatter, NoSparksNoSpatter) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -13,7 +13,7 @@
 
 /// Compares the product's projections with the simulated machine's truth: its pictures come from
 /// plain vector reflection, without a ball model.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using optics::Vec3;
@@ -41,11 +41,11 @@ void expect_equal(const optics::Box& a, const optics::Box& b) {
 }
 
 TEST(Truth, TheShippedDemoFileDescribesItsSimulatedCameras) {
-  const Resolved site = demo();
+  const files::Resolved site = demo();
   const simulation::MachineSettings machine;
   ASSERT_EQ(site.site.cameras.size(), site.rig.cameras.size());
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    const CameraSettings& camera = site.site.cameras[i];
+    const files::CameraSettings& camera = site.site.cameras[i];
     SCOPED_TRACE(camera.name);
     ASSERT_EQ(site.rig.cameras[i].name, camera.name);
     const auto& simulated = std::get<simulation::SimulatedCameraSettings>(camera.back_end);
@@ -113,4 +113,4 @@ TEST(Truth, TheExactModelIsPlainReflection) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -9,7 +9,7 @@
 #include "tests/app/files/machine_files.h"
 #include "tests/app/files/refusal.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 TEST_F(ConfigurationFile, IsReadAndTheRestIsByDefault) {
@@ -345,4 +345,4 @@ TEST(ConfigurationManual, IsWhatIsCommitted) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

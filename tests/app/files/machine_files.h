@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 /// Files of a small machine, which tests change.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 inline const std::string kRig = R"(
 [[camera]]
@@ -80,4 +80,4 @@ source = "start"
 width_us = 200
 )";
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -8,7 +8,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// File with a fault, and the required contents of its message.
 struct Refusal {
@@ -25,4 +25,4 @@ inline void expect_said(const Refusal& refusal, const Error& error) {
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 
 /// The text with the first `what` replaced by `with`.
 inline std::string replaced(const std::string& what, const std::string& with, std::string text) {
@@ -14,4 +14,4 @@ inline std::string replaced(const std::string& what, const std::string& with, st
   return text.replace(at, what.size(), with);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -10,7 +10,7 @@
 #include "tests/app/files/refusal.h"
 
 /// References from a configuration to recipes, and contradictions between recipes.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// Recipe that measures camera a in a view of its own, with further text.
@@ -237,4 +237,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& refusal) { return refusal.param.name; });
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

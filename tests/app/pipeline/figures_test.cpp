@@ -4,7 +4,7 @@
 #include "app/pipeline/frame_budget.h"
 #include "app/pipeline/second_meter.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using std::chrono::milliseconds;
@@ -72,4 +72,4 @@ TEST(FrameBudget, ReportsTheLargestLoadSinceTheLastReport) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -14,7 +14,7 @@
 #include "hal/camera.h"
 #include "hal/frame/frame_pool.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Width and height of a HandCamera's frames.
 inline constexpr int kHandCameraSize = 100;
@@ -105,4 +105,4 @@ class HandCamera : public hal::Camera {
   std::function<void()> action_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

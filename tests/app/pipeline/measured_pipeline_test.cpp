@@ -19,7 +19,7 @@
 #include "tests/app/pipeline/measurement/measured_recipe.h"
 #include "tests/app/pipeline/views/thermal_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using hal::Clock;
@@ -458,4 +458,4 @@ TEST_F(MeasuredPipeline, StopsWhileRecipesAreSelected) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

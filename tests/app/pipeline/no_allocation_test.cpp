@@ -43,7 +43,7 @@ void operator delete(void* memory) noexcept {
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 constexpr int kSize = 120;
@@ -225,4 +225,4 @@ TEST(PanTiltZoom, FreesARendererWhenItWasReplaced) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -13,7 +13,7 @@
 #include "tests/app/pipeline/hand_camera.h"
 #include "tests/app/pipeline/measurement/measured_recipe.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 double mean_of(const View& view) {
@@ -469,4 +469,4 @@ TEST_F(PipelineTest, StopsTwiceAndWithoutAStart) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

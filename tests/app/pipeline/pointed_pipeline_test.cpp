@@ -14,7 +14,7 @@
 #include "tests/app/pipeline/measurement/measured_recipe.h"
 #include "tests/app/pipeline/views/pointed_views.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 /// View that a sink received.
@@ -288,4 +288,4 @@ TEST(PointedPipeline, TakesRequestsBeforeTheFirstFrame) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using std::chrono::milliseconds;
@@ -84,4 +84,4 @@ TEST(StageMeter, RanksTheSetsOfASecond) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

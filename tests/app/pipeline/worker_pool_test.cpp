@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 /// Waits until a thread sleeps: it then holds no lock that others need.
@@ -135,4 +135,4 @@ TEST(WorkerPool, NothingToDoIsDoneAtOnce) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 namespace {
 
@@ -55,4 +55,4 @@ CommandAnswer carry_out(const CommandRequest& request, const CommandHandler& han
   return {result, std::string(operator_text(result))};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -9,7 +9,7 @@
 #include "app/ports/dds/generated/command.h"
 #include "app/state/command_record.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using CommandMessage = orbwatch_msgs_msg_dds__Command_;
 using CommandResultMessage = orbwatch_msgs_msg_dds__CommandResult_;
@@ -40,4 +40,4 @@ CommandRequest request_of(const CommandMessage& message);
 /// command is unknown, or its arguments are not allowed. The answer does not quote the sender.
 CommandAnswer carry_out(const CommandRequest& request, const CommandHandler& handler);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

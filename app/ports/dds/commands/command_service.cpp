@@ -3,7 +3,7 @@
 
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 CommandService::CommandService(const std::string& prefix, CommandHandler handler,
                                CommandRecord& record, std::function<void()> wake)
@@ -89,4 +89,4 @@ CommandCounts CommandService::counts() const {
   return {done_, refused_, repeated_, queue_.drops()};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

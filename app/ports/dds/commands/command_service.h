@@ -15,7 +15,7 @@
 #include "app/state/command_record.h"
 #include "hal/thread/bounded_queue.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Receives commands over DDS, executes each at most once and answers it. The receive thread of DDS
 /// puts requests into a bounded queue and never waits; the owner's thread executes them.
@@ -68,4 +68,4 @@ class CommandService {
   std::atomic<std::uint64_t> repeated_{0};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -9,7 +9,7 @@
 
 #include "app/ports/dds/commands/command_request.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// The newest answer to each client, so that no request is executed twice: networks repeat samples,
 /// and clients repeat requests whose answers they missed. The size is bounded. Thread-bound.
@@ -56,4 +56,4 @@ class RequestLedger {
   std::vector<Entry> entries_;  ///< ordered by the time of the last new request, oldest first
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

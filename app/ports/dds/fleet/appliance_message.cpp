@@ -11,7 +11,7 @@
 #include "app/pictures/thumbnail.h"
 #include "hal/jpeg/jpeg_decoder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 static_assert(sizeof(ApplianceMessage::name) == ApplianceIdentity::kLongestName + 1);
@@ -86,4 +86,4 @@ Result<> check_thumbnail(const ThumbnailMessage& message) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -5,7 +5,7 @@
 #include "app/ports/dds/generated/appliance.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using ApplianceMessage = orbwatch_msgs_msg_dds__Appliance_;
 using ThumbnailMessage = orbwatch_msgs_msg_dds__Thumbnail_;
@@ -21,4 +21,4 @@ Result<ApplianceNotice> check_appliance(const ApplianceMessage& message);
 /// Thumbnail::kLongestSide. Reentrant.
 Result<> check_thumbnail(const ThumbnailMessage& message);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

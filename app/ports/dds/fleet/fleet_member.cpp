@@ -9,7 +9,7 @@
 #include "app/ports/dds/topics/topic_names.h"
 #include "hal/host.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 constexpr auto kPeriod = std::chrono::seconds(1);
@@ -90,4 +90,4 @@ void FleetMember::report(std::vector<TopicStatistics>& topics) const {
   topics.push_back(thumbnails_.statistics());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -10,7 +10,7 @@
 #include "app/ports/dds/fleet/fleet_reader.h"
 #include "app/ports/dds/pictures/picture_topic.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Membership of the appliance in its domain's fleet: announces itself once a second, publishes a
 /// thumbnail every few seconds while it has viewers, and receives the announcements of the others.
@@ -54,4 +54,4 @@ class FleetMember {
   hal::TimePoint next_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -8,7 +8,7 @@
 #include "app/ports/dds/fleet/appliance_message.h"
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// Depth of the readers' histories; samples are taken as they arrive, so it exceeds any burst.
@@ -123,4 +123,4 @@ Result<std::string> appliance_id(dds_entity_t participant) {
   return text_of(guid);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -4,7 +4,7 @@
 #include "app/model/fleet/fleet.h"
 #include "app/ports/dds/topics/topic_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Receives the announcements of the appliances of a domain, and their thumbnails while there are
 /// viewers. Samples are checked on arrival, on Cyclone's threads, so that a sender cannot fill
@@ -37,4 +37,4 @@ class FleetReader {
 /// Id of a participant in Fleet. Error: a failure of DDS.
 Result<std::string> appliance_id(dds_entity_t participant);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

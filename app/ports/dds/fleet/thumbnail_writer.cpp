@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/fleet/thumbnail_writer.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 void ThumbnailWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const Picture small = thumbnail_.of(stamped.picture);
@@ -17,4 +17,4 @@ void ThumbnailWriter::write(StampedPicture stamped, TopicWriter& topic) {
   topic.write(&message);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -5,7 +5,7 @@
 #include "app/ports/dds/generated/appliance.h"
 #include "app/ports/dds/pictures/picture_writer.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// orbwatch_msgs/Thumbnail: a small JPEG.
 class ThumbnailWriter final : public PictureWriter {
@@ -22,4 +22,4 @@ class ThumbnailWriter final : public PictureWriter {
   JpegEncoder encoder_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -13,7 +13,7 @@
 #include "app/log.h"
 #include "app/ports/dds/participant/rate_limit.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 namespace {
 
@@ -60,4 +60,4 @@ void limit_dds_log() {
   std::call_once(once, [] { dds_set_log_sink(write_line, nullptr); });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Samples that Cyclone DDS dropped because they are not valid CDR of their type or too large,
 /// counted by its log lines, because it has no counter and does not deliver them. The count covers
@@ -15,4 +15,4 @@ std::uint64_t malformed_samples();
 /// thread-safe, repeating it does nothing.
 void limit_dds_log();
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 namespace {
 
@@ -68,4 +68,4 @@ Result<Entity> make_reader(const Entity& participant, const Entity& topic, const
   return checked("reader", dds_create_reader(participant.get(), topic.get(), qos.get(), listener));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

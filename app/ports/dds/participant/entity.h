@@ -12,7 +12,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// The error of a DDS call that returned `code`: "DDS <what>: <reason>".
 Error dds_error(std::string_view what, dds_return_t code);
@@ -75,4 +75,4 @@ Result<Entity> make_writer(const Entity& participant, const Entity& topic, const
 Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos,
                            const dds_listener_t* listener = nullptr);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

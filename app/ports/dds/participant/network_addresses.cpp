@@ -16,7 +16,7 @@
 #include "hal/host.h"
 #include "hal/socket_address.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// The IPv4 address to which the UDP socket `file` is bound; nullopt: not such a socket, or bound
@@ -94,4 +94,4 @@ std::vector<NetworkAddress> InterfaceWatch::watched(
   return kept;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// An IPv4 address of one of this host's interfaces.
 struct NetworkAddress {
@@ -48,4 +48,4 @@ class InterfaceWatch {
   bool watches_all_ = true;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

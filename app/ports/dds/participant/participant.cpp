@@ -5,7 +5,7 @@
 #include <map>
 #include <mutex>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 namespace {
 
@@ -126,4 +126,4 @@ void Participant::leave() {
   domain_.reset();
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -12,7 +12,7 @@
 #include "app/ports/dds/participant/entity.h"
 #include "app/ports/dds/security/participant_security.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// The largest sample sent or received, serialised: a picture of 8192x5000 in rgb8. Larger ones are
 /// dropped; a profile may override it.
@@ -58,4 +58,4 @@ class Participant {
   Entity entity_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

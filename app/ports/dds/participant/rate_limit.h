@@ -7,7 +7,7 @@
 
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Admits a number of events per period and counts the rest. Thread-bound.
 class RateLimit {
@@ -37,4 +37,4 @@ class RateLimit {
   std::optional<hal::TimePoint> start_;  ///< start of the current period
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

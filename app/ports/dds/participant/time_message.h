@@ -6,7 +6,7 @@
 
 #include "app/ports/dds/generated/time.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// UTC since 1970-01-01, in the form of ROS 2.
 using TimeMessage = builtin_interfaces_msg_dds__Time_;
@@ -29,4 +29,4 @@ inline std::chrono::system_clock::time_point to_utc(const TimeMessage& message) 
   return std::chrono::system_clock::time_point(since_epoch(message));
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -6,7 +6,7 @@
 
 #include "proc/optics/named_distortion.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 // The C API takes non-const pointers, but a write changes nothing.
@@ -50,4 +50,4 @@ Result<optics::Intrinsics> lens_of(const optics::ViewSpec& view) {
   return *intrinsics;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

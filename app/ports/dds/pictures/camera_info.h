@@ -9,7 +9,7 @@
 #include "proc/optics/lens.h"
 #include "proc/optics/view_projection.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using CameraInfoMessage = sensor_msgs_msg_dds__CameraInfo_;
 
@@ -23,4 +23,4 @@ CameraInfoMessage camera_info(const optics::Intrinsics& lens, const std::string&
 /// ViewProjection::make; views of other kinds. Reentrant; allocates nothing but errors.
 Result<optics::Intrinsics> lens_of(const optics::ViewSpec& view);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& name,
                            const PublishedCamera& camera,
@@ -46,4 +46,4 @@ void CameraTopics::report(std::vector<TopicStatistics>& topics) const {
   if (info_) topics.push_back(info_->statistics());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -14,7 +14,7 @@
 #include "hal/frame/buffer_count.h"
 #include "hal/frame/frame.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Topics of a camera's own picture of the ball, and of its calibration if the lens is known.
 /// Thread rule: as ViewTopics.
@@ -45,4 +45,4 @@ class CameraTopics {
   std::optional<InfoTopic> info_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

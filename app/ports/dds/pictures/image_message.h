@@ -11,7 +11,7 @@
 #include "app/ports/dds/generated/image.h"
 #include "proc/image/pixel_format.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using ImageMessage = sensor_msgs_msg_dds__Image_;
 using CompressedImageMessage = sensor_msgs_msg_dds__CompressedImage_;
@@ -44,4 +44,4 @@ inline constexpr bool kBigEndianHost = std::endian::native == std::endian::big;
 inline constexpr std::string_view kColourJpeg = "rgb8; jpeg compressed bgr8";
 inline constexpr std::string_view kGreyJpeg = "mono8; jpeg compressed mono8";
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

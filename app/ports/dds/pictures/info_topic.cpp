@@ -5,7 +5,7 @@
 #include "app/ports/dds/pictures/camera_info.h"
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 InfoTopic::InfoTopic(const std::string& raw)
     : topic_(sensor_msgs_msg_dds__CameraInfo__desc, camera_info_topic(raw)) {}
@@ -48,4 +48,4 @@ TopicStatistics InfoTopic::statistics() const {
   return statistics;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

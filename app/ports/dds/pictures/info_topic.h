@@ -11,7 +11,7 @@
 #include "proc/optics/lens.h"
 #include "proc/optics/view_projection.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Calibration of a picture, passed from the pipeline to a topic.
 struct StampedCalibration {
@@ -45,4 +45,4 @@ class InfoTopic {
   hal::Mailbox<StampedCalibration> newest_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

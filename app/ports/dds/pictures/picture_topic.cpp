@@ -5,7 +5,7 @@
 
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 PictureTopic::PictureTopic(std::string name, std::unique_ptr<PictureWriter> writer,
                            std::shared_ptr<hal::SharedThreads> threads, double rate)
@@ -125,4 +125,4 @@ void PictureTopics::report(std::vector<TopicStatistics>& topics) const {
   topics.push_back(compressed_.statistics());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -12,7 +12,7 @@
 #include "hal/thread/mailbox.h"
 #include "hal/thread/shared_threads.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// A topic of pictures, which are converted, compressed and written on shared threads: a large
 /// sample can block in the socket. The newest picture wins; a scarce picture is accepted only while
@@ -100,4 +100,4 @@ class PictureTopics {
   bool compressed_asked_ = false;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -4,7 +4,7 @@
 #include "app/pictures/picture_conversion.h"
 #include "app/ports/dds/participant/participant.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// Limit of the pixels, beside the rest of an image message.
@@ -77,4 +77,4 @@ void JpegPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   if (stamped.also) stamped.also->write(&message);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -14,7 +14,7 @@
 #include "app/ports/dds/topics/topic_writer.h"
 #include "proc/image/picture.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// A picture passed from the pipeline to topics.
 struct StampedPicture {
@@ -72,4 +72,4 @@ class JpegPictureWriter final : public PictureWriter {
   JpegEncoder encoder_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include "app/ports/dds/topics/topic_names.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& name,
                        const PublishedView& view,
@@ -73,4 +73,4 @@ void ViewTopics::report(std::vector<TopicStatistics>& topics) const {
   if (measured_info_) topics.push_back(measured_info_->statistics());
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

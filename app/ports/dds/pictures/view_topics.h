@@ -11,7 +11,7 @@
 #include "app/ports/dds/pictures/info_topic.h"
 #include "app/ports/dds/pictures/picture_topic.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Topics of one view: its display picture and its measured plane, each with its calibration for a
 /// perspective view. Thread rule: accept on one thread; publish_info, open and close by one owner;
@@ -45,4 +45,4 @@ class ViewTopics {
   std::optional<InfoTopic> measured_info_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

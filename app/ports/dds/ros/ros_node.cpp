@@ -7,7 +7,7 @@
 #include "app/ports/dds/generated/participant_entities.h"
 #include "app/ports/dds/ros/type_hash.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using Iron = rmw_dds_common_msg_dds__ParticipantEntitiesInfo_;
@@ -116,4 +116,4 @@ Result<> DiscoveryInfo::announce(std::span<const dds_entity_t> writers,
              : write<Iron>(writer_, participant_, writers, readers);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -10,7 +10,7 @@
 #include "app/ports/dds/participant/entity.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Format of ros_discovery_info, which changed with rmw_dds_common 2.0.
 enum class RosGeneration : std::uint8_t {
@@ -50,4 +50,4 @@ class DiscoveryInfo {
   Entity writer_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -6,7 +6,7 @@
 
 #include "app/ports/dds/generated/type_hashes.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 Result<> announce_type_hash(const Qos& qos, const dds_topic_descriptor_t& type) {
   const auto found =
@@ -19,4 +19,4 @@ Result<> announce_type_hash(const Qos& qos, const dds_topic_descriptor_t& type) 
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -15,7 +15,7 @@
 
 #include "hal/calendar_time.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// An element of an XML document and its own text.
@@ -283,4 +283,4 @@ const Grant* find_grant(const std::vector<Grant>& grants, const std::string& sub
   return found == grants.end() ? nullptr : &*found;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

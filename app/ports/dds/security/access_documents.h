@@ -7,7 +7,7 @@
 #include "app/certificates/certificate.h"
 
 /// The two documents of DDS Security, governance and permissions, written and read. All reentrant.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// DDS domains from `first` to `last`, both included.
 struct DomainRange {
@@ -53,4 +53,4 @@ Result<std::vector<Grant>> read_permissions(const std::string& document);
 /// subject's parts is irrelevant, as in Cyclone DDS.
 const Grant* find_grant(const std::vector<Grant>& grants, const std::string& subject);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -4,7 +4,7 @@
 #include "app/ports/dds/security/signed_document.h"
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ Result<> check_enclave(const EnclaveFiles& files, int domain, const Now& now) {
       });
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -8,7 +8,7 @@
 #include "app/ports/dds/security/access_documents.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Files of one participant, named as in an enclave of ROS 2, which can use the folder, too. The
 /// XML beside the signed documents is for reading by users only.
@@ -32,4 +32,4 @@ Result<std::string> read_document(const std::filesystem::path& file, const Certi
 /// checked. Reentrant.
 Result<> check_enclave(const EnclaveFiles& files, int domain, const Now& now);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

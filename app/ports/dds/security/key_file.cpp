@@ -9,7 +9,7 @@
 
 #include "hal/regular_file.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 tl::unexpected<Error> cannot(const std::filesystem::path& file, const char* what) {
@@ -29,4 +29,4 @@ Result<> write_key_file(const std::filesystem::path& file, std::string_view text
   return {};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -7,7 +7,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Read access to a file.
 enum class Readable { Owner, Everybody };
@@ -17,4 +17,4 @@ enum class Readable { Owner, Everybody };
 Result<> write_key_file(const std::filesystem::path& file, std::string_view text,
                         Readable readable);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -9,7 +9,7 @@
 
 #include "app/ports/dds/security/enclave.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ Result<Qos> security_qos(const SecuritySettings& settings, int domain) {
   return qos;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -7,12 +7,18 @@
 #include "app/ports/dds/participant/entity.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// The credentials of a participant.
 struct SecuritySettings {
   std::filesystem::path folder;  ///< holds the files of EnclaveFiles
 };
+
+template <class Visitor>
+void visit(Visitor& v, SecuritySettings& security) {
+  v.required("folder", security.folder,
+             "Folder with certificate, key and permissions, made by `orbwatch dds-keys`");
+}
 
 /// Checks the files like check_enclave().
 Result<> check_security(const SecuritySettings& settings, int domain, Dates dates);
@@ -22,4 +28,4 @@ Result<> check_security(const SecuritySettings& settings, int domain, Dates date
 /// plugins are not installed. Reentrant.
 Result<Qos> security_qos(const SecuritySettings& settings, int domain);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -7,7 +7,7 @@
 
 #include "app/certificates/openssl.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using Pkcs7 = std::unique_ptr<PKCS7, OpensslDeleter<PKCS7_free>>;
@@ -53,4 +53,4 @@ Result<std::string> verified_document(std::string_view document, const Certifica
   return text_of(out);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

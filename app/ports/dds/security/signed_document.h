@@ -8,7 +8,7 @@
 #include "proc/image/result.h"
 
 /// Signatures of governance and permissions. All reentrant.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Signs `text` as S/MIME multipart/signed with a detached PKCS #7 signature, required by DDS
 /// Security 1.1, 9.4.1.2, for governance and permissions.
@@ -19,4 +19,4 @@ Result<std::string> sign_document(std::string_view text, const Credential& signe
 /// `signer`, or changed afterwards.
 Result<std::string> verified_document(std::string_view document, const Certificate& signer);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

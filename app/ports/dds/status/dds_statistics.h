@@ -8,7 +8,7 @@
 #include "app/model/status/field.h"
 #include "app/ports/dds/topics/topic_writer.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 #define ORBWATCH_COMMAND_COUNTS(FIELD)                                                      \
   FIELD(std::uint64_t, done, kCount, "Requests carried out")                                \
@@ -56,4 +56,4 @@ struct DdsStatistics : DdsCounts {
   CommandCounts commands;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

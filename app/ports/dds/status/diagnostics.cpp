@@ -9,7 +9,7 @@
 #include "app/ports/dds/ros/ros_node.h"
 #include "app/ports/dds/status/process_state.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
@@ -121,4 +121,4 @@ const DiagnosticsMessage& DiagnosticsComposer::compose(std::vector<Diagnostic> d
   return message_;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

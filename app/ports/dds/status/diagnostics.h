@@ -10,7 +10,7 @@
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/status/dds_statistics.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using DiagnosticsMessage = diagnostic_msgs_msg_dds__DiagnosticArray_;
 
@@ -56,4 +56,4 @@ class DiagnosticsComposer {
   DiagnosticsMessage message_{};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include "app/model/status/condition.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 constexpr char kAlarmKind[] = "alarm";
@@ -30,4 +30,4 @@ const EventMessage& EventComposer::compose(const AlarmNotice& notice, const Stat
   return message_;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -9,7 +9,7 @@
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/status/process_state.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using EventMessage = orbwatch_msgs_msg_dds__Event_;
 
@@ -27,4 +27,4 @@ class EventComposer {
   EventMessage message_{};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

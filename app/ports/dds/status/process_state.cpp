@@ -5,7 +5,7 @@
 
 #include "app/ports/dds/participant/time_message.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// Casts const away: the C API takes non-const pointers, but a write changes nothing.
@@ -49,4 +49,4 @@ const ProcessStateMessage& ProcessStateComposer::compose(const StatusReport& rep
   return message_;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

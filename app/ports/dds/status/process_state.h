@@ -8,7 +8,7 @@
 #include "app/ports/dds/generated/process_state.h"
 #include "app/ports/dds/status/dds_statistics.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 using FigureMessage = orbwatch_msgs_msg_dds__Figure_;
 using FigureSequence = dds_sequence_orbwatch_msgs_msg_dds__Figure_;
@@ -35,4 +35,4 @@ class ProcessStateComposer {
   ProcessStateMessage message_{};
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -6,7 +6,7 @@
 #include "app/ports/dds/topics/topic_names.h"
 #include "hal/host.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
@@ -51,4 +51,4 @@ void StatusTopics::publish(const StampedStatus& stamped, const CommandCounts& co
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

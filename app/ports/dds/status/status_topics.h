@@ -14,7 +14,7 @@
 #include "app/ports/dds/topics/topic_writer.h"
 #include "hal/clock.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 struct StampedStatus {
   Status status;
@@ -52,4 +52,4 @@ class StatusTopics {
   hal::TimePoint next_diagnostics_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

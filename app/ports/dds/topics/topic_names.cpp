@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 namespace {
 
@@ -27,4 +27,4 @@ Result<> check_topic_path(std::string_view path, std::string_view what) {
   return check_topic_path(path.substr(slash + 1), what);
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -6,7 +6,7 @@
 
 #include "proc/image/result.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// "rt/<prefix>/<name>".
 inline std::string ros_topic(std::string_view prefix, std::string_view name) {
@@ -65,4 +65,4 @@ Result<> check_topic_part(std::string_view part, std::string_view what);
 /// Checks a path of parts separated by '/'.
 Result<> check_topic_path(std::string_view path, std::string_view what);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

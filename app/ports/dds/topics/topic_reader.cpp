@@ -6,7 +6,7 @@
 
 #include "app/ports/dds/ros/type_hash.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 Result<> TopicReader::open(const Entity& participant, const Qos& qos,
                            const dds_listener_t* listener) {
@@ -60,4 +60,4 @@ Result<bool> wait_for_data(const Entity& wait_set, std::chrono::nanoseconds time
   return code > 0;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

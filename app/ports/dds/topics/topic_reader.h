@@ -9,7 +9,7 @@
 
 #include "app/ports/dds/participant/entity.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// One topic and its reader. Thread rule: one owner.
 class TopicReader {
@@ -52,4 +52,4 @@ Result<Entity> make_wait_set(const Entity& participant, const std::vector<dds_en
 /// Waits; returns whether data arrived before the timeout. Thread-bound. Error: a failure of DDS.
 Result<bool> wait_for_data(const Entity& wait_set, std::chrono::nanoseconds timeout);
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

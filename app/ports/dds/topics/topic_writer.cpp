@@ -3,7 +3,7 @@
 
 #include "app/ports/dds/ros/type_hash.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 Result<> TopicWriter::open(const Entity& participant, const Qos& qos) {
   if (writer_) return {};
@@ -61,4 +61,4 @@ TopicStatistics TopicWriter::statistics() const {
   return {name_, readers_, written_, unread_, 0, 0, blocked_, failed_, last_error_};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

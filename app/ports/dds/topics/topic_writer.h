@@ -10,7 +10,7 @@
 #include "app/model/status/field.h"
 #include "app/ports/dds/participant/entity.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 #define ORBWATCH_DDS_TOPIC_FIGURES(FIELD)                                                      \
   FIELD(std::uint64_t, readers, kCount, "Readers that are matched now")                        \
@@ -84,4 +84,4 @@ class TopicWriter {
   std::string last_error_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -4,7 +4,7 @@
 #include "app/log.h"
 #include "app/ports/dds/topics/topic_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 Result<> TypeWatch::open(const Entity& participant, std::map<std::string, std::string> types) {
   types_ = std::move(types);
@@ -49,4 +49,4 @@ void TypeWatch::update(const Entity& reader, const char* kind) {
   }
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -7,7 +7,7 @@
 
 #include "app/ports/dds/participant/entity.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// Detects foreign writers and readers that use a topic of ours with another type: DDS never
 /// matches them, without an error. Thread-bound.
@@ -31,4 +31,4 @@ class TypeWatch {
   Entity readers_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

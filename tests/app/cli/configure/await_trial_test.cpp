@@ -20,8 +20,8 @@ constexpr TrialPatience kLong{milliseconds(60'000), milliseconds(60'000)};
 class AwaitTrial : public testing::Test {
  protected:
   AwaitTrial() {
-    EXPECT_TRUE(report_trial(folder.path(), "of a request before"));
-    EXPECT_TRUE(request_trial(folder.path(), {"/etc/site.toml", {}, 60}));
+    EXPECT_TRUE(files::report_trial(folder.path(), "of a request before"));
+    EXPECT_TRUE(files::request_trial(folder.path(), {"/etc/site.toml", {}, 60}));
   }
 
   /// Returns the refusal; empty: the trial runs.
@@ -35,8 +35,8 @@ class AwaitTrial : public testing::Test {
 
 TEST_F(AwaitTrial, EndsWhenItRuns) {
   std::thread daemon([&] {
-    EXPECT_TRUE(take_trial(folder.path()));
-    EXPECT_TRUE(report_trial(folder.path(), {}));
+    EXPECT_TRUE(files::take_trial(folder.path()));
+    EXPECT_TRUE(files::report_trial(folder.path(), {}));
   });
   EXPECT_EQ(refusal(kLong), "");
   daemon.join();
@@ -44,28 +44,28 @@ TEST_F(AwaitTrial, EndsWhenItRuns) {
 
 TEST_F(AwaitTrial, SaysWhyItDoesNotRun) {
   std::thread daemon([&] {
-    EXPECT_TRUE(take_trial(folder.path()));
-    EXPECT_TRUE(report_trial(folder.path(), "site.toml:1: is wrong"));
-    EXPECT_TRUE(end_trial(folder.path()));
+    EXPECT_TRUE(files::take_trial(folder.path()));
+    EXPECT_TRUE(files::report_trial(folder.path(), "site.toml:1: is wrong"));
+    EXPECT_TRUE(files::end_trial(folder.path()));
   });
   EXPECT_THAT(refusal(kLong), HasSubstr("site.toml:1: is wrong"));
   daemon.join();
 }
 
 TEST_F(AwaitTrial, SaysThatItEnded) {
-  EXPECT_TRUE(take_trial(folder.path()));
-  EXPECT_TRUE(end_trial(folder.path())) << "the process ended, the next one found it";
+  EXPECT_TRUE(files::take_trial(folder.path()));
+  EXPECT_TRUE(files::end_trial(folder.path())) << "the process ended, the next one found it";
   EXPECT_THAT(refusal(kLong), HasSubstr("ended before it ran"));
 }
 
 TEST_F(AwaitTrial, WithdrawsWhatNobodyTakes) {
   EXPECT_THAT(refusal({milliseconds(1), milliseconds(1)}),
               HasSubstr("no orbwatchd has taken it up"));
-  EXPECT_FALSE(is_trial_requested(folder.path()));
+  EXPECT_FALSE(files::is_trial_requested(folder.path()));
 }
 
 TEST_F(AwaitTrial, SaysThatADaemonIsSilent) {
-  EXPECT_TRUE(take_trial(folder.path()));
+  EXPECT_TRUE(files::take_trial(folder.path()));
   EXPECT_THAT(refusal({milliseconds(1), milliseconds(1)}), HasSubstr("does not say that it runs"));
 }
 

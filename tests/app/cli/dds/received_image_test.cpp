@@ -15,7 +15,7 @@ namespace {
 struct OwnedImage {
   std::string encoding = "rgb8";
   std::vector<std::uint8_t> bytes;
-  ImageMessage message{};
+  dds::ImageMessage message{};
 
   OwnedImage(std::string name, std::uint32_t width, std::uint32_t height, std::uint32_t step)
       : encoding(std::move(name)), bytes(std::size_t{step} * height) {
@@ -29,7 +29,7 @@ struct OwnedImage {
 };
 
 TEST(CheckImageTest, SoundImagesPass) {
-  for (const auto& encoding : kImageEncodings) {
+  for (const auto& encoding : dds::kImageEncodings) {
     const OwnedImage tight(std::string(encoding.name), 5, 4, 5 * encoding.bytes_per_pixel());
     const auto image = check_image(tight.message);
     ASSERT_TRUE(image) << encoding.name << ": " << image.error().message;
@@ -44,12 +44,12 @@ TEST(CheckImageTest, SoundImagesPass) {
 
 TEST(CheckImageTest, ByteOrderCountsForWideSamplesOnly) {
   OwnedImage wide("mono16", 2, 2, 4);
-  wide.message.is_bigendian = kBigEndianHost ? 0 : 1;
+  wide.message.is_bigendian = dds::kBigEndianHost ? 0 : 1;
   EXPECT_TRUE(check_image(wide.message)->swapped);
-  wide.message.is_bigendian = kBigEndianHost ? 1 : 0;
+  wide.message.is_bigendian = dds::kBigEndianHost ? 1 : 0;
   EXPECT_FALSE(check_image(wide.message)->swapped);
   OwnedImage narrow("mono8", 2, 2, 2);
-  narrow.message.is_bigendian = kBigEndianHost ? 0 : 1;
+  narrow.message.is_bigendian = dds::kBigEndianHost ? 0 : 1;
   EXPECT_FALSE(check_image(narrow.message)->swapped);
 }
 

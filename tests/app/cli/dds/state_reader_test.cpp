@@ -42,7 +42,7 @@ class StateReaderTest : public testing::Test {
 };
 
 TEST_F(StateReaderTest, EveryFieldArrivesAtALateJoiner) {
-  DdsSink sink({.domain = DdsNetwork::kSinkDomain}, tests::make_names(), nullptr);
+  dds::DdsSink sink({.domain = DdsNetwork::kSinkDomain}, tests::make_names(), nullptr);
   ASSERT_TRUE(sink.start());
   Status status = tests::make_status();
   const auto now = hal::Clock::now();
@@ -51,7 +51,7 @@ TEST_F(StateReaderTest, EveryFieldArrivesAtALateJoiner) {
   sink.accept(status);
   ASSERT_TRUE(eventually([&] {
     const auto statistics = sink.statistics();
-    return std::ranges::any_of(statistics.topics, [](const TopicStatistics& topic) {
+    return std::ranges::any_of(statistics.topics, [](const dds::TopicStatistics& topic) {
       return topic.topic == "rt/orbwatch/process_state" && topic.written == 1;
     });
   }));
@@ -75,7 +75,7 @@ TEST_F(StateReaderTest, EveryFieldArrivesAtALateJoiner) {
 }
 
 TEST_F(StateReaderTest, TheNewestWins) {
-  DdsSink sink({.domain = DdsNetwork::kSinkDomain}, tests::make_names(), nullptr);
+  dds::DdsSink sink({.domain = DdsNetwork::kSinkDomain}, tests::make_names(), nullptr);
   ASSERT_TRUE(sink.start());
   StateReader reader("orbwatch");
   ASSERT_TRUE(reader.open(DdsNetwork::kReaderDomain));
@@ -94,7 +94,7 @@ TEST_F(StateReaderTest, TheNewestWins) {
 }
 
 TEST_F(StateReaderTest, AnEmptyStateIsOne) {
-  DdsSink sink({.domain = DdsNetwork::kSinkDomain}, {}, nullptr);
+  dds::DdsSink sink({.domain = DdsNetwork::kSinkDomain}, {}, nullptr);
   ASSERT_TRUE(sink.start());
   sink.accept(Status{});
   StateReader reader("orbwatch");
@@ -113,16 +113,16 @@ TEST_F(StateReaderTest, AnEmptyStateIsOne) {
 /// Process state with one component of one figure, whose parts a test may invalidate.
 struct SmallState {
   std::string kind = "camera", name = "front", figure_name = "frames", unit = "1/s", text = "some";
-  std::vector<FigureMessage> figures{1};
-  std::vector<ComponentMessage> components{1};
+  std::vector<dds::FigureMessage> figures{1};
+  std::vector<dds::ComponentMessage> components{1};
   std::uint8_t system_state = 1;
 
-  const ProcessStateMessage& message() {
-    std::ranges::fill(figures, FigureMessage{figure_name.data(), 7, unit.data(), text.data()});
+  const dds::ProcessStateMessage& message() {
+    std::ranges::fill(figures, dds::FigureMessage{figure_name.data(), 7, unit.data(), text.data()});
     const auto figure_count = static_cast<std::uint32_t>(figures.size());
     std::ranges::fill(
         components,
-        ComponentMessage{
+        dds::ComponentMessage{
             kind.data(), name.data(), {figure_count, figure_count, figures.data(), false}});
     const auto count = static_cast<std::uint32_t>(components.size());
     message_.header.frame_id = frame_id_.data();
@@ -133,7 +133,7 @@ struct SmallState {
 
  private:
   std::string frame_id_;
-  ProcessStateMessage message_{};
+  dds::ProcessStateMessage message_{};
 };
 
 struct StateDamage {
@@ -189,11 +189,11 @@ TEST(CheckProcessState, AcceptsTheLongest) {
 TEST_F(StateReaderTest, SkipsInvalidStates) {
   const tests::ForeignWriter writer(DdsNetwork::kSinkDomain,
                                     orbwatch_msgs_msg_dds__ProcessState__desc,
-                                    process_state_topic("orbwatch"), state_qos());
+                                    dds::process_state_topic("orbwatch"), dds::state_qos());
   StateReader reader("orbwatch");
   ASSERT_TRUE(reader.open(DdsNetwork::kReaderDomain));
   ASSERT_TRUE(writer.wait_for_reader());
-  const auto refusal = [&](const ProcessStateMessage& message) -> std::string {
+  const auto refusal = [&](const dds::ProcessStateMessage& message) -> std::string {
     const std::string before = reader.refusal();
     writer.write(&message);
     bool accepted = false;

@@ -90,14 +90,14 @@ struct SmallImage {
   std::string frame_id = "front";
   std::string encoding = "mono8";
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(12, 7);
-  ImageMessage message{};
+  dds::ImageMessage message{};
 
   SmallImage() {
     message.width = 4;
     message.height = 3;
     message.step = 4;
   }
-  const ImageMessage* get() {
+  const dds::ImageMessage* get() {
     message.header.frame_id = frame_id.data();
     message.encoding = encoding.data();
     const auto size = static_cast<std::uint32_t>(bytes.size());
@@ -115,7 +115,7 @@ class SubscriberTest : public testing::Test {
 };
 
 TEST_F(SubscriberTest, EndsWhenEachTopicHasBroughtEnough) {
-  DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);
+  dds::DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);
   ASSERT_TRUE(sink.start());
   Subscriber subscriber(
       {.topics = {"orbwatch/front/image_raw", "orbwatch/process_state"}, .count = 3, .each = true});
@@ -135,7 +135,7 @@ TEST_F(SubscriberTest, EndsWhenEachTopicHasBroughtEnough) {
 }
 
 TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
-  DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);
+  dds::DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);
   ASSERT_TRUE(sink.start());
   const auto folder = folder_.path() / "new";
   Subscriber subscriber(
@@ -188,7 +188,7 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
 
 TEST_F(SubscriberTest, ReadsCompressedPicturesAndRefusesWhatIsNone) {
   ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__CompressedImage__desc,
-                       "rt/orbwatch/front/image_raw/compressed", frame_qos());
+                       "rt/orbwatch/front/image_raw/compressed", dds::frame_qos());
   const auto folder = folder_.path() / "jpeg";
   Subscriber subscriber(
       {.topics = {"orbwatch/front/image_raw/compressed"}, .save = folder, .each = true});
@@ -198,7 +198,7 @@ TEST_F(SubscriberTest, ReadsCompressedPicturesAndRefusesWhatIsNone) {
   ASSERT_TRUE(cv::imencode(".jpg", grey, jpeg));
   std::string frame_id = "front", format = "mono8; jpeg compressed mono8";
   const auto write = [&](std::vector<std::uint8_t> bytes) {
-    CompressedImageMessage message{};
+    dds::CompressedImageMessage message{};
     message.header.frame_id = frame_id.data();
     message.format = format.data();
     const auto size = static_cast<std::uint32_t>(bytes.size());
@@ -225,7 +225,7 @@ TEST_F(SubscriberTest, ReadsCompressedPicturesAndRefusesWhatIsNone) {
 
 TEST_F(SubscriberTest, SavesTheNewest) {
   const ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__Image__desc,
-                             kFrontTopic, frame_qos());
+                             kFrontTopic, dds::frame_qos());
   Subscriber subscriber({.topics = {kFrontTopic}, .save = folder_.path()});
   ASSERT_TRUE(writer.wait_for_reader());
   SmallImage image;
@@ -243,7 +243,7 @@ TEST_F(SubscriberTest, SavesTheNewest) {
 
 TEST_F(SubscriberTest, RefusesImagesThatDoNotAddUp) {
   const ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__Image__desc,
-                             kFrontTopic, frame_qos());
+                             kFrontTopic, dds::frame_qos());
   Subscriber subscriber({.topics = {kFrontTopic}, .save = folder_.path()});
   ASSERT_TRUE(writer.wait_for_reader());
   SmallImage good;
@@ -271,10 +271,11 @@ TEST_F(SubscriberTest, RefusesImagesThatDoNotAddUp) {
 
 TEST_F(SubscriberTest, RefusesStatesThatItDoesNotKnow) {
   const ForeignWriter writer(tests::DdsNetwork::kSinkDomain,
-                             orbwatch_msgs_msg_dds__ProcessState__desc, kStateTopic, state_qos());
+                             orbwatch_msgs_msg_dds__ProcessState__desc, kStateTopic,
+                             dds::state_qos());
   Subscriber subscriber({.topics = {kStateTopic}});
   ASSERT_TRUE(writer.wait_for_reader());
-  ProcessStateMessage message{};
+  dds::ProcessStateMessage message{};
   message.header.stamp = {INT32_MIN, UINT32_MAX};
   writer.write(&message);
   message.system_state = 200;
@@ -308,7 +309,7 @@ TEST_F(SubscriberTest, EndsByItselfAndSaysThatNothingCame) {
 TEST_F(SubscriberTest, EndsWithTheTypeOfATopicThatItCannotRead) {
   const auto* const topic = "rt/robot/state_of_it";
   const ForeignWriter writer(tests::DdsNetwork::kSinkDomain,
-                             orbwatch_msgs_msg_dds__ProcessState__desc, topic, state_qos());
+                             orbwatch_msgs_msg_dds__ProcessState__desc, topic, dds::state_qos());
   Subscriber subscriber({.topics = {topic}});
   ASSERT_TRUE(eventually([&] { return subscriber.has_ended(); })) << "it waits for ever";
   const auto report = subscriber.cancel();
@@ -321,9 +322,10 @@ TEST_F(SubscriberTest, EndsWithTheTypeOfATopicThatItCannotRead) {
 
 TEST_F(SubscriberTest, ReadsATopicThatOthersWriteWithAnotherTypeToo) {
   const ForeignWriter other(tests::DdsNetwork::kSinkDomain,
-                            orbwatch_msgs_msg_dds__ProcessState__desc, kFrontTopic, state_qos());
+                            orbwatch_msgs_msg_dds__ProcessState__desc, kFrontTopic,
+                            dds::state_qos());
   const ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__Image__desc,
-                             kFrontTopic, frame_qos());
+                             kFrontTopic, dds::frame_qos());
   Subscriber subscriber({.topics = {kFrontTopic}, .seconds = 3});
   ASSERT_TRUE(writer.wait_for_reader());
   SmallImage image;

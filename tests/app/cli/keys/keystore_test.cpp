@@ -42,8 +42,8 @@ class KeystoreTest : public testing::Test {
  protected:
   KeystoreRequest request() const { return keystore_request(folder_ / "keys"); }
   fs::path file(const std::string& name) const { return folder_ / "keys" / name; }
-  EnclaveFiles enclave(const std::string& name) const {
-    return EnclaveFiles(enclave_folder(folder_ / "keys", name));
+  dds::EnclaveFiles enclave(const std::string& name) const {
+    return dds::EnclaveFiles(enclave_folder(folder_ / "keys", name));
   }
 
   void expect_refused(const KeystoreRequest& request, const std::string& reason) const {
@@ -61,7 +61,7 @@ class KeystoreTest : public testing::Test {
 TEST_F(KeystoreTest, CertificatesAreThoseOfTheirKeysAndAuthorities) {
   make_keystore(request());
   for (const std::string name : {"appliance", "subscriber"}) {
-    const EnclaveFiles files = enclave(name);
+    const dds::EnclaveFiles files = enclave(name);
     EXPECT_EQ(
         openssl_.run({"verify", "-x509_strict", "-CAfile", files.identity_ca, files.certificate}),
         0)
@@ -88,7 +88,7 @@ TEST_F(KeystoreTest, CertificatesAreThoseOfTheirKeysAndAuthorities) {
 TEST_F(KeystoreTest, DocumentsAreSignedByTheAuthorityForThem) {
   make_keystore(request());
   for (const std::string name : {"appliance", "subscriber"}) {
-    const EnclaveFiles files = enclave(name);
+    const dds::EnclaveFiles files = enclave(name);
     for (const fs::path& document : {files.governance, files.permissions}) {
       const std::vector<std::string> verify{"smime", "-verify", "-text",
                                             "-in",   document,  "-CAfile"};
@@ -109,7 +109,7 @@ TEST_F(KeystoreTest, DocumentsAreSignedByTheAuthorityForThem) {
 
 TEST_F(KeystoreTest, NoParticipantCanSignItsOwnPermissions) {
   make_keystore(request());
-  const EnclaveFiles files = enclave("subscriber");
+  const dds::EnclaveFiles files = enclave("subscriber");
   const fs::path xml = fs::path(files.permissions).replace_extension(".xml");
   ASSERT_EQ(openssl_.run({"smime", "-sign", "-text", "-in", xml, "-signer", files.certificate,
                           "-inkey", files.key, "-out", folder_ / "forged"}),
@@ -196,7 +196,7 @@ TEST_F(KeystoreTest, SubscribersAreAddedByTheSameAuthorities) {
   make_keystore(more);
   auto after = contents(folder_ / "keys");
   for (const std::string name : {"plc", "office-2"}) {
-    const EnclaveFiles files = enclave(name);
+    const dds::EnclaveFiles files = enclave(name);
     EXPECT_EQ(openssl_.run(
                   {"verify", "-CAfile", file("private/identity_ca.cert.pem"), files.certificate}),
               0)
@@ -240,8 +240,8 @@ TEST_F(KeystoreTest, RefusesWhatDoesNotFit) {
 TEST_F(KeystoreTest, AddsSubscribersToOneOfAnEarlierVersion) {
   auto earlier = request();
   for (auto* topics : {&earlier.appliance.publish, &earlier.appliance.subscribe}) {
-    std::erase(*topics, kApplianceTopic);
-    std::erase(*topics, kThumbnailTopic);
+    std::erase(*topics, dds::kApplianceTopic);
+    std::erase(*topics, dds::kThumbnailTopic);
   }
   make_keystore(earlier);
   auto more = request();

@@ -31,13 +31,13 @@ class Installed : public Daemon {
 };
 
 TEST_F(Installed, KeepsNoTrialThatWouldRemoveAChangeMadeSinceItsTextWasRead) {
-  app::InstalledConfiguration installed(file, {app::resolve(file).value(), "", {}});
+  app::daemon::InstalledConfiguration installed(file, {app::files::resolve(file).value(), "", {}});
   const auto edit = installed.with_changed_recipe(1, limit_of(450));
   ASSERT_TRUE(edit) << edit.error().message;
   std::ofstream(folder / "recipe.toml") << recipe << "# by hand\n";
   const auto change = installed.try_out(*edit, 60);
   ASSERT_TRUE(change) << change.error().message;
-  ASSERT_TRUE(app::take_trial(folder.path()).value());
+  ASSERT_TRUE(app::files::take_trial(folder.path()).value());
   const auto kept = installed.confirm();
   ASSERT_FALSE(kept);
   EXPECT_THAT(kept.error().message, HasSubstr("recipe.toml was changed by "));
@@ -45,11 +45,11 @@ TEST_F(Installed, KeepsNoTrialThatWouldRemoveAChangeMadeSinceItsTextWasRead) {
 }
 
 TEST_F(Installed, KeepsATrialOfTheFileThatWasRead) {
-  app::InstalledConfiguration installed(file, {app::resolve(file).value(), "", {}});
+  app::daemon::InstalledConfiguration installed(file, {app::files::resolve(file).value(), "", {}});
   const auto edit = installed.with_changed_recipe(1, limit_of(450));
   ASSERT_TRUE(edit) << edit.error().message;
   ASSERT_TRUE(installed.try_out(*edit, 60));
-  ASSERT_TRUE(app::take_trial(folder.path()).value());
+  ASSERT_TRUE(app::files::take_trial(folder.path()).value());
   const auto kept = installed.confirm();
   ASSERT_TRUE(kept) << kept.error().message;
   EXPECT_THAT(*kept, testing::ElementsAre("recipe.toml"));
@@ -57,7 +57,7 @@ TEST_F(Installed, KeepsATrialOfTheFileThatWasRead) {
 }
 
 TEST_F(Installed, RefusesAChecksumThatIsNone) {
-  app::InstalledConfiguration installed(file, {app::resolve(file).value(), "", {}});
+  app::daemon::InstalledConfiguration installed(file, {app::files::resolve(file).value(), "", {}});
   auto edit = installed.with_changed_recipe(1, limit_of(450));
   ASSERT_TRUE(edit) << edit.error().message;
   for (const char* wrong : {"", "zz", "0a1b2c3d4e", "-1", "0x1"}) {

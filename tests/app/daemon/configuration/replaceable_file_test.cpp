@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 /// Texts from clients, and the files that they would replace.
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST_F(ReplaceableFile, MayBeWhereConfigurationAndStateShareAFolder) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using std::chrono::seconds;
@@ -51,4 +51,4 @@ TEST(Attempts, WhatIsThereAtOnceIsNotTriedAgain) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

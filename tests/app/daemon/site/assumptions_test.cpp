@@ -6,18 +6,18 @@
 
 #include "tests/app/daemon/demo_site.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
-std::vector<std::string> assumed(const Resolved& site) {
+std::vector<std::string> assumed(const files::Resolved& site) {
   const auto plan = SitePlan::make(site, expected_formats(site));
   EXPECT_TRUE(plan) << plan.error().message;
   return plan ? assumptions(site, *plan) : std::vector<std::string>();
 }
 
 TEST(Assumptions, LimitsOfHotSpotsAreAssumedWhereTheRecipeStatesNone) {
-  Resolved site = demo();
-  RegionOfInterest& region = site.recipes.front().regions.front();
+  files::Resolved site = demo();
+  pipeline::RegionOfInterest& region = site.recipes.front().regions.front();
   region.hot_spot_min_area.reset();
   region.hot_spot_max_speed.reset();
   auto said = assumed(site);
@@ -34,16 +34,16 @@ TEST(Assumptions, LimitsOfHotSpotsAreAssumedWhereTheRecipeStatesNone) {
   site.rig.scene = {};
   region.hot_spot_min_area.reset();
   region.hot_spot_max_speed.reset();
-  for (RegionOfInterest& any : site.recipes.front().regions) any.alarms.clear();
+  for (pipeline::RegionOfInterest& any : site.recipes.front().regions) any.alarms.clear();
   EXPECT_TRUE(assumed(site).empty()) << "no surface is known";
 }
 
 TEST(Assumptions, ACameraThatIsNotRegisteredIsNamed) {
-  Resolved site = demo();
+  files::Resolved site = demo();
   site.rig.cameras[site.rig_cameras[0]].is_registered = false;
   EXPECT_THAT(assumed(site).front(),
               testing::HasSubstr("camera " + site.names.cameras[0] + ": is not registered"));
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

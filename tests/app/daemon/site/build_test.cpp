@@ -13,12 +13,12 @@
 #include "hal/frame/frame_pool.h"
 #include "tests/app/daemon/demo_site.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
-std::vector<hal::StreamFormat> formats(const Resolved& site) {
+std::vector<hal::StreamFormat> formats(const files::Resolved& site) {
   std::vector<hal::StreamFormat> formats;
-  for (const CameraSettings& camera : site.site.cameras) {
+  for (const files::CameraSettings& camera : site.site.cameras) {
     formats.push_back({camera.radiometry.kelvin_per_count > 0 ? PixelFormat::Y16 : PixelFormat::Rgb,
                        {},
                        camera.stream.width,
@@ -29,7 +29,7 @@ std::vector<hal::StreamFormat> formats(const Resolved& site) {
   return formats;
 }
 
-Result<PipelinePlan> built(const Resolved& site) {
+Result<pipeline::PipelinePlan> built(const files::Resolved& site) {
   return SitePlan::make(site, formats(site)).and_then([&](const SitePlan& plan) {
     return build(site, plan);
   });
@@ -51,19 +51,19 @@ hal::FrameSet noisy_set(const hal::StreamFormat& format) {
   return set;
 }
 
-std::vector<RegionStatus> measured(const Resolved& site) {
+std::vector<RegionStatus> measured(const files::Resolved& site) {
   const auto streams = formats(site);
   auto plan = built(site);
   EXPECT_TRUE(plan) << plan.error().message;
   if (!plan) return {};
-  CompiledRecipe& recipe = *plan->recipes.front();
-  WorkerPool workers(0);
+  pipeline::CompiledRecipe& recipe = *plan->recipes.front();
+  pipeline::WorkerPool workers(0);
   const hal::FrameSet set = noisy_set(streams[kThermalCamera]);
-  PictureUses uses;
-  for (const ViewChannel& view : recipe.views()) view.add_use(uses);
-  FramePyramids pyramids(streams, uses);
+  pipeline::PictureUses uses;
+  for (const pipeline::ViewChannel& view : recipe.views()) view.add_use(uses);
+  pipeline::FramePyramids pyramids(streams, uses);
   pyramids.build(set, uses, workers);
-  ViewBuffers buffers({}, {recipe.plan().views}, {});
+  pipeline::ViewBuffers buffers({}, {recipe.plan().views}, {});
   recipe.render(set, pyramids, buffers, workers);
   recipe.measure();
   return {recipe.regions().begin(), recipe.regions().end()};
@@ -79,10 +79,10 @@ void expect_same(const signals::Signals& a, const signals::Signals& b) {
 }
 
 TEST(Build, AnOutlineInDirectionsIsTheOneInPoints) {
-  Resolved site = demo();
-  RegionOfInterest& points = first(site).regions[0];
+  files::Resolved site = demo();
+  pipeline::RegionOfInterest& points = first(site).regions[0];
   ASSERT_EQ(points.points.size(), 4U);
-  RegionOfInterest directions = points, whole = points;
+  pipeline::RegionOfInterest directions = points, whole = points;
   directions.name = "directions";
   directions.points.clear();
   whole.name = "whole";
@@ -104,7 +104,7 @@ TEST(Build, AnOutlineInDirectionsIsTheOneInPoints) {
 }
 
 TEST(Build, TemperaturesAreTrueOnesOnceBallAndTargetAreKnown) {
-  Resolved site = demo();
+  files::Resolved site = demo();
   const auto peak = [&] { return measured(site)[0]; };
   const RegionStatus apparent = peak();
   EXPECT_EQ(apparent.quality, Quality::Apparent);
@@ -121,7 +121,7 @@ TEST(Build, TemperaturesAreTrueOnesOnceBallAndTargetAreKnown) {
 }
 
 TEST(Build, AThresholdIsATemperatureOfTheTarget) {
-  Resolved site = demo();
+  files::Resolved site = demo();
   site.site.cameras[kThermalCamera].radiometry.reflectivity = 0.7;
   first(site).regions[0].emissivity = 0.6;
   const auto regions = measured(site);
@@ -132,8 +132,8 @@ TEST(Build, AThresholdIsATemperatureOfTheTarget) {
 
 TEST(Build, AlarmsOnWhatNeverHasAValueAreRefused) {
   const auto refusal = [](const std::string& signal, auto spoil) {
-    Resolved site = demo();
-    RegionOfInterest& region = first(site).regions[0];
+    files::Resolved site = demo();
+    pipeline::RegionOfInterest& region = first(site).regions[0];
     signals::AlarmLimits alarm;
     alarm.signal = *find_word(signals::kSignalWords, signal);
     alarm.high_alarm = 1;
@@ -157,8 +157,8 @@ TEST(Build, AlarmsOnWhatNeverHasAValueAreRefused) {
 }
 
 TEST(Build, ARegionBehindTheBallIsRefused) {
-  Resolved site = demo();
-  MeasuredViewSettings& view = first(site).views[0];
+  files::Resolved site = demo();
+  pipeline::MeasuredViewSettings& view = first(site).views[0];
   view.yaw = 168.1;  // the ball's far side, as the thermal camera stands
   view.pitch = -11.6;
   view.h_fov = 6;
@@ -173,10 +173,10 @@ TEST(Build, ARegionBehindTheBallIsRefused) {
 }
 
 TEST(Build, EachHasItsNumberItsViewsAndItsControls) {
-  Resolved site = demo();
-  Recipe second = first(site);
+  files::Resolved site = demo();
+  pipeline::Recipe second = first(site);
   second.views[0].name = "other";
-  for (RegionOfInterest& region : second.regions) region.view.name = "other";
+  for (pipeline::RegionOfInterest& region : second.regions) region.view.name = "other";
   first(site).controls = {{{{"thermal"}, "Gain", 1}, 1}};
   second.controls = {{{{"thermal"}, "Gain", 4}, 1}};
   second.settle_frames = 5;
@@ -188,8 +188,8 @@ TEST(Build, EachHasItsNumberItsViewsAndItsControls) {
   const auto plan = built(site);
   ASSERT_TRUE(plan) << plan.error().message;
   ASSERT_EQ(plan->recipes.size(), 2U);
-  const RecipePlan& one = plan->recipes[0]->plan();
-  const RecipePlan& two = plan->recipes[1]->plan();
+  const pipeline::RecipePlan& one = plan->recipes[0]->plan();
+  const pipeline::RecipePlan& two = plan->recipes[1]->plan();
   EXPECT_EQ(one.number, 1);
   EXPECT_EQ(two.number, 7);
   EXPECT_EQ(one.views[0].index, site.site.views.size()) << "after those to look at";
@@ -201,7 +201,7 @@ TEST(Build, EachHasItsNumberItsViewsAndItsControls) {
 }
 
 TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
-  Resolved site = demo();
+  files::Resolved site = demo();
   for (const auto& [name, use] :
        {std::pair{"start", LineUse::TriggerIn}, std::pair{"door", LineUse::ProcessInput},
         std::pair{"ok", LineUse::ProcessOk}, std::pair{"laser", LineUse::ProcessInput}}) {
@@ -210,7 +210,7 @@ TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
     line.use = use;
     site.site.lines.push_back(line);
   }
-  first(site).process_active = ActiveSource::Input;
+  first(site).process_active = pipeline::ActiveSource::Input;
   first(site).process_input.name = "laser";
   ASSERT_TRUE(resolve_references(site, "site.toml"));
   const auto plan = built(site);
@@ -219,20 +219,20 @@ TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
 }
 
 /// The demo's site, of whose cameras nobody knows where one looks.
-Resolved with_unregistered(std::size_t camera) {
-  Resolved site = demo();
+files::Resolved with_unregistered(std::size_t camera) {
+  files::Resolved site = demo();
   site.rig.cameras[site.rig_cameras[camera]].is_registered = false;
   return site;
 }
 
 TEST(Build, AnUnregisteredCameraIsLeftOutOfMergedViews) {
-  Resolved site = with_unregistered(kThermalCamera);
+  files::Resolved site = with_unregistered(kThermalCamera);
   site.recipes.clear();
-  ViewSettings alone = site.site.views.front();
+  pipeline::ViewSettings alone = site.site.views.front();
   alone.name = "alone";
   alone.sources.erase(alone.sources.begin() + 1, alone.sources.end());
   alone.sources.front().camera.index = kThermalCamera;
-  ViewSettings merged = alone;
+  pipeline::ViewSettings merged = alone;
   merged.sources.push_back(merged.sources.front());
   merged.sources.back().camera.index = 0;
   site.site.views = {{alone}, {merged}};
@@ -246,13 +246,13 @@ TEST(Build, AnUnregisteredCameraIsLeftOutOfMergedViews) {
 
 /// Another camera of a measured view is left out, and the one that measures is found again.
 TEST(Build, AnUnregisteredCameraIsLeftOutOfMeasuredViews) {
-  Resolved site = with_unregistered(0);
-  for (MeasuredViewSettings& view : first(site).views) {
+  files::Resolved site = with_unregistered(0);
+  for (pipeline::MeasuredViewSettings& view : first(site).views) {
     ASSERT_EQ(view.sources[view.measured.index].camera.index, kThermalCamera);
   }
   const auto plan = built(site);
   ASSERT_TRUE(plan) << plan.error().message;
-  for (const ViewPlan& view : plan->recipes.front()->plan().views) {
+  for (const pipeline::ViewPlan& view : plan->recipes.front()->plan().views) {
     ASSERT_EQ(view.sources.size(), 1U);
     EXPECT_EQ(view.measured, 0U);
     EXPECT_EQ(view.sources[0].camera, kThermalCamera);
@@ -260,4 +260,4 @@ TEST(Build, AnUnregisteredCameraIsLeftOutOfMeasuredViews) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// Camera that shows the request it received.
@@ -23,7 +23,7 @@ class RequestedCamera : public hal::Camera {
 };
 
 std::size_t requested_buffers(hal::TriggerMode mode) {
-  Resolved site;
+  files::Resolved site;
   site.site.cameras.emplace_back().trigger.mode = mode;
   optics::RigCamera& rig = site.rig.cameras.emplace_back();
   rig.width = rig.height = 8;
@@ -58,7 +58,7 @@ class ThermalCamera : public hal::Camera {
 
 hal::DeviceResult<hal::StreamFormat> opened(const signals::RadiometrySettings& radiometry,
                                             std::optional<hal::CountScale> says) {
-  Resolved site;
+  files::Resolved site;
   site.site.cameras.emplace_back().radiometry = radiometry;
   optics::RigCamera& rig = site.rig.cameras.emplace_back();
   rig.width = rig.height = 8;
@@ -90,8 +90,8 @@ TEST(OpenCamera, CountsMayBeginAtAnyTemperature) {
 }
 
 /// Request for a stream without a stated size from a camera with this back-end.
-hal::StreamRequest requested_of(BackEndSettings back_end) {
-  Resolved site;
+hal::StreamRequest requested_of(files::BackEndSettings back_end) {
+  files::Resolved site;
   site.site.cameras.emplace_back().back_end = std::move(back_end);
   optics::RigCamera& rig = site.rig.cameras.emplace_back();
   rig.width = rig.height = 8;
@@ -102,8 +102,8 @@ hal::StreamRequest requested_of(BackEndSettings back_end) {
 }
 
 TEST(OpenCamera, ARadiometricV4l2CameraOfAnotherFormatIsToldHowToBeConfigured) {
-  Resolved site;
-  CameraSettings& settings = site.site.cameras.emplace_back();
+  files::Resolved site;
+  files::CameraSettings& settings = site.site.cameras.emplace_back();
   settings.radiometry.kelvin_per_count = 0.04;
   settings.back_end = hal::V4l2Settings{};
   optics::RigCamera& rig = site.rig.cameras.emplace_back();
@@ -149,4 +149,4 @@ TEST(OpenCamera, AScaleThatContradictsTheCameraIsRefused) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

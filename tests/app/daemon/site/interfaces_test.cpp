@@ -10,7 +10,7 @@
 
 #include "app/model/status/status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 std::string lower(std::string_view text) {
@@ -33,4 +33,4 @@ TEST(InterfaceFaults, TheFiguresTextSaysWhichBitIsWhich) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -5,14 +5,14 @@
 
 #include "tests/app/daemon/demo_site.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 /// The demonstration with one display view: pictures of the ball by the colour camera, then by the
 /// thermal one.
-Resolved with_ball_view() {
-  Resolved site = demo();
-  Located<ViewSettings> view = site.site.views.front();
+files::Resolved with_ball_view() {
+  files::Resolved site = demo();
+  Located<pipeline::ViewSettings> view = site.site.views.front();
   view.kind = optics::ViewKind::Ball;
   view.h_fov.reset();
   view.v_fov.reset();
@@ -29,22 +29,22 @@ Resolved with_ball_view() {
 }
 
 /// Where the pixel in the middle of the ball's picture looks.
-optics::Vec3 middle_of_ball(const Resolved& site) {
+optics::Vec3 middle_of_ball(const files::Resolved& site) {
   const auto plan = SitePlan::make(site, expected_formats(site));
   EXPECT_TRUE(plan) << plan.error().message;
   if (!plan) return {};
   const auto views = published_views(site, *plan);
   EXPECT_TRUE(views.front().ball);
   if (!views.front().ball) return {};
-  const ViewSettings& view = site.site.views.front();
+  const pipeline::ViewSettings& view = site.site.views.front();
   return views.front()
       .ball->direction(view.width / 2.0, view.height / 2.0)
       .value_or(optics::Vec3{});
 }
 
 TEST(Published, ABallsPictureIsThatOfTheFirstCameraThatIsShown) {
-  Resolved both = with_ball_view();
-  Resolved thermal = both;
+  files::Resolved both = with_ball_view();
+  files::Resolved thermal = both;
   auto& sources = thermal.site.views.front().sources;
   sources.erase(sources.begin());
   const auto by_colour = middle_of_ball(both), by_thermal = middle_of_ball(thermal);
@@ -55,7 +55,7 @@ TEST(Published, ABallsPictureIsThatOfTheFirstCameraThatIsShown) {
 }
 
 TEST(Published, RecipesHaveTheOutlinesThatAreMeasured) {
-  const Resolved site = demo();
+  const files::Resolved site = demo();
   const auto plan = SitePlan::make(site, expected_formats(site));
   ASSERT_TRUE(plan) << plan.error().message;
   const auto recipes = measured_recipes(site, *plan);
@@ -73,4 +73,4 @@ TEST(Published, RecipesHaveTheOutlinesThatAreMeasured) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

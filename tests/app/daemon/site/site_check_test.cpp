@@ -10,15 +10,16 @@
 
 #include "tests/app/daemon/demo_site.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 TEST(SiteCheck, WhatIsShippedCanRunAndTheReferenceMachine) {
   for (const char* file : {"demo.toml", "usb-camera.toml", "gige-camera.toml",
                            "../../tests/bench/reference/site.toml"}) {
-    const auto checked = resolve(kShippedFolder / file).and_then([](const Resolved& site) {
-      return check_site(site, Dates::Checked);
-    });
+    const auto checked =
+        files::resolve(kShippedFolder / file).and_then([](const files::Resolved& site) {
+          return check_site(site, Dates::Checked);
+        });
     EXPECT_TRUE(checked) << checked.error().message;
   }
 }
@@ -26,14 +27,14 @@ TEST(SiteCheck, WhatIsShippedCanRunAndTheReferenceMachine) {
 /// What a change makes of the demonstration.
 template <class Change>
 std::string refusal(const Change& change) {
-  Resolved site = demo();
+  files::Resolved site = demo();
   change(site);
   const auto checked = check_site(site, Dates::Checked);
   return checked ? "none" : checked.error().message;
 }
 
 TEST(SiteCheck, FindsRegionsOutsideOfTheirView) {
-  const std::string said = refusal([](Resolved& site) {
+  const std::string said = refusal([](files::Resolved& site) {
     first(site).regions[0].points.clear();
     first(site).regions[0].directions = {{60, 40}, {70, 40}, {60, 50}};
   });
@@ -42,15 +43,15 @@ TEST(SiteCheck, FindsRegionsOutsideOfTheirView) {
 }
 
 TEST(SiteCheck, FindsThresholdsThatNothingReaches) {
-  const auto hotter_than_the_scale = [](Resolved& site) {
+  const auto hotter_than_the_scale = [](files::Resolved& site) {
     first(site).regions[0].hot_spot_threshold = 9000;
   };
   EXPECT_THAT(refusal(hotter_than_the_scale),
               testing::HasSubstr("region pool: hot_spot_threshold is 9000.0 degC; the camera's "
                                  "counts end at "));
-  const auto above_full_scale = [](Resolved& site) {
+  const auto above_full_scale = [](files::Resolved& site) {
     site.site.cameras[kThermalCamera].radiometry.kelvin_per_count = 0;
-    for (RegionOfInterest& region : first(site).regions) region.alarms.clear();
+    for (pipeline::RegionOfInterest& region : first(site).regions) region.alarms.clear();
     first(site).regions[1].spatter_threshold.reset();
     first(site).regions[0].plume_threshold.reset();
     first(site).regions[0].hot_spot_threshold = 101;
@@ -59,7 +60,7 @@ TEST(SiteCheck, FindsThresholdsThatNothingReaches) {
   EXPECT_THAT(refusal(above_full_scale),
               testing::HasSubstr("region pool: hot_spot_threshold is 101.0; it must be above 0 and "
                                  "at most 100 percent"));
-  EXPECT_EQ(refusal([&](Resolved& site) {
+  EXPECT_EQ(refusal([&](files::Resolved& site) {
               above_full_scale(site);
               first(site).regions[0].hot_spot_threshold = 99;
             }),
@@ -68,7 +69,7 @@ TEST(SiteCheck, FindsThresholdsThatNothingReaches) {
 
 TEST(SiteCheck, FindsModbusAndThePageOnOnePort) {
   const auto on = [](int port, std::optional<int> https, const char* page, const char* plc) {
-    return refusal([=](Resolved& site) {
+    return refusal([=](files::Resolved& site) {
       auto& web = std::get<WebSettings>(site.site.sinks);
       auto& modbus = std::get<ModbusSettings>(site.site.sinks);
       web.enabled = modbus.enabled = true;
@@ -88,7 +89,7 @@ TEST(SiteCheck, FindsModbusAndThePageOnOnePort) {
 }
 
 TEST(ListeningPorts, AreThoseOfAllEnabledInterfaces) {
-  SinkSettings sinks;
+  files::SinkSettings sinks;
   auto& web = std::get<WebSettings>(sinks);
   web.enabled = true;
   web.address = "10.0.0.5";
@@ -108,7 +109,7 @@ TEST(ListeningPorts, AreThoseOfAllEnabledInterfaces) {
 }
 
 TEST(SiteCheck, AnUnregisteredCameraDoesNotMeasure) {
-  Resolved site = demo();
+  files::Resolved site = demo();
   site.rig.cameras[site.rig_cameras[kThermalCamera]].is_registered = false;
   const auto measuring = check_site(site, Dates::Ignored);
   ASSERT_FALSE(measuring);
@@ -117,4 +118,4 @@ TEST(SiteCheck, AnUnregisteredCameraDoesNotMeasure) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

@@ -7,7 +7,7 @@
 #include "app/daemon/site/site_check.h"
 #include "tests/app/daemon/demo_site.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::daemon {
 namespace {
 
 using testing::HasSubstr;
@@ -16,19 +16,19 @@ constexpr std::uint64_t kGigabyte = 1'000'000'000;
 constexpr int kLargest = 16384;
 
 /// Site with twelve of the largest views that the files may state.
-Resolved large_site() {
-  Resolved site = demo();
+files::Resolved large_site() {
+  files::Resolved site = demo();
   site.recipes.clear();
   const auto view = site.site.views.front();
   site.site.views.assign(12, view);
-  for (ViewSettings& each : site.site.views) each.width = each.height = kLargest;
+  for (pipeline::ViewSettings& each : site.site.views) each.width = each.height = kLargest;
   return site;
 }
 
 TEST(ViewMemory, IsThatOfAllDisplayViewsAndTheLargestRecipe) {
-  Resolved site = large_site();
+  files::Resolved site = large_site();
   EXPECT_EQ(view_memory(site), std::uint64_t{12} * 4 * kLargest * kLargest);
-  Recipe recipe = demo().recipes.front();
+  pipeline::Recipe recipe = demo().recipes.front();
   recipe.views.resize(1);
   recipe.views.front().width = 100;
   recipe.views.front().height = 10;
@@ -39,7 +39,7 @@ TEST(ViewMemory, IsThatOfAllDisplayViewsAndTheLargestRecipe) {
 }
 
 TEST(ViewMemory, OfMoreThanTheComputerHasIsRefused) {
-  const Resolved site = large_site();
+  const files::Resolved site = large_site();
   const auto checked = check_view_memory(site, 8 * kGigabyte);
   ASSERT_FALSE(checked);
   EXPECT_THAT(checked.error().message, HasSubstr("need 12.9 GB"));
@@ -51,7 +51,7 @@ TEST(ViewMemory, OfMoreThanTheComputerHasIsRefused) {
 
 TEST(ViewMemory, IsPartOfTheCheckOfASite) {
   ASSERT_GT(computer_memory(), 0U);
-  Resolved site = large_site();
+  files::Resolved site = large_site();
   const auto view = site.site.views.front();
   const std::uint64_t each = std::uint64_t{4} * kLargest * kLargest;
   site.site.views.assign(computer_memory() / each + 1, view);
@@ -61,4 +61,4 @@ TEST(ViewMemory, IsPartOfTheCheckOfASite) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::daemon

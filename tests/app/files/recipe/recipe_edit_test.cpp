@@ -11,7 +11,7 @@
 #include "app/files/recipe/recipe_file.h"
 #include "tests/app/files/replaced.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 using testing::HasSubstr;
@@ -72,10 +72,10 @@ std::string recipe_with(const std::string& what, const std::string& with,
   return replaced(what, with, text);
 }
 
-Recipe recipe_of(const std::string& text) {
+pipeline::Recipe recipe_of(const std::string& text) {
   auto recipe = parse_recipe(text, "recipe.toml");
   EXPECT_TRUE(recipe) << recipe.error().message;
-  return recipe ? *recipe : Recipe{};
+  return recipe ? *recipe : pipeline::Recipe{};
 }
 
 TEST(RecipeEdit, SetsALimitAndKeepsEveryOtherByte) {
@@ -141,7 +141,7 @@ TEST(RecipeEdit, RemovesARegionWithItsAlarms) {
                     end = kRecipe.find("\n[[region]] ", begin + 1);
   ASSERT_NE(end, std::string::npos);
   EXPECT_TRUE(text->starts_with(kRecipe.substr(0, begin) + kRecipe.substr(end, 40))) << *text;
-  const Recipe recipe = recipe_of(*text);
+  const pipeline::Recipe recipe = recipe_of(*text);
   ASSERT_EQ(recipe.regions.size(), 2U);
   EXPECT_EQ(recipe.regions[0].name, "surroundings");
   EXPECT_EQ(recipe.regions[1].name, "door");
@@ -161,7 +161,7 @@ TEST(RecipeEdit, AppliesAllChangesOrNone) {
   const RegionChange whole{"surroundings", {{0, 0}, {10, 0}, {10, 10}}};
   const auto text = changed({{kHigher}, {added, whole}});
   ASSERT_TRUE(text) << text.error().message;
-  const Recipe recipe = recipe_of(*text);
+  const pipeline::Recipe recipe = recipe_of(*text);
   EXPECT_EQ(recipe.regions.size(), 3U);
   EXPECT_EQ(recipe.regions[1].directions.size(), 3U);
   EXPECT_EQ(recipe.regions[0].alarms[0].high_warning, 27.5);
@@ -272,4 +272,4 @@ TEST(RecipeEdit, ChangesOneLineOfTheShippedRecipe) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -9,7 +9,7 @@
 #include "tests/app/files/refusal.h"
 #include "tests/app/files/replaced.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 const std::string kValidRecipe = R"(
@@ -49,10 +49,10 @@ std::string valid_recipe_with(const std::string& what, const std::string& with) 
 TEST(RecipeFile, IsReadAndTheRestIsByDefault) {
   const auto recipe = parse_recipe(kValidRecipe, "recipe.toml");
   ASSERT_TRUE(recipe) << recipe.error().message;
-  EXPECT_EQ(recipe->process_active, ActiveSource::Detected);
+  EXPECT_EQ(recipe->process_active, pipeline::ActiveSource::Detected);
   EXPECT_EQ(recipe->views[0].measured.name, "a");
   EXPECT_EQ(recipe->views[0].sources[1].camera.name, "b");
-  const RegionOfInterest& region = recipe->regions[0];
+  const pipeline::RegionOfInterest& region = recipe->regions[0];
   EXPECT_EQ(region.directions[2][1], 20);
   EXPECT_EQ(region.emissivity, 0.4);
   EXPECT_FALSE(region.plume_threshold);
@@ -130,4 +130,4 @@ TEST(RecipeManual, IsWhatIsCommitted) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

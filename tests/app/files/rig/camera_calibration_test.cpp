@@ -10,7 +10,7 @@
 #include "tests/app/files/replaced.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 using optics::Distortion;
@@ -348,4 +348,4 @@ TEST(CameraCalibration, FileThatCannotBeReadIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

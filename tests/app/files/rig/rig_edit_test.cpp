@@ -9,7 +9,7 @@
 #include "app/files/rig/rig_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 const std::string kCommentedRig = R"(# our machine
@@ -161,4 +161,4 @@ TEST(RigEdit, WritesTheFileItReadAndOnlyThen) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -11,7 +11,7 @@
 #include "tests/app/files/replaced.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 const std::string kValidRig = R"(
@@ -307,4 +307,4 @@ TEST(RigManual, ItsExampleIsValid) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

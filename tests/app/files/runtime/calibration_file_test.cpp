@@ -9,7 +9,7 @@
 #include "app/files/rig/rig_file.h"
 #include "tests/app/files/machine_files.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 constexpr std::uint32_t kThisRig = 4'000'000'001;
@@ -195,4 +195,4 @@ TEST_F(CalibrationFile, IsForTheRigAsItWasRead) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -16,7 +16,7 @@
 #include "tests/support/share.h"
 
 /// SIGKILL at any moment of a write: the file is then the old or the new one, and valid.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST_F(KilledWriter, OfAlignmentsLeavesTheOldOrTheNewOnes) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -11,7 +11,7 @@
 #include "app/files/toml/toml_edit.h"
 
 /// Texts that are designed to end a process, for every parser of foreign files.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 /// Largest body that HTTP accepts by default, bytes.
@@ -107,4 +107,4 @@ TEST(TomlDepth, DotsOfValuesStringsAndCommentsDoNotCount) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -16,7 +16,7 @@
 
 /// Properties of random edits of the shipped rigs and recipes. The expected result is kept here as
 /// paths and printed values, apart from the editor's own check.
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 std::string content_of(const std::string& file) {
@@ -391,4 +391,4 @@ INSTANTIATE_TEST_SUITE_P(Rigs, RandomAlignments, testing::ValuesIn(kRigs),
                          [](const auto& info) { return "N" + std::to_string(info.index); });
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

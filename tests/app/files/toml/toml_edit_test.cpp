@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace orbwatch::app {
+namespace orbwatch::app::files {
 namespace {
 
 TomlEdit edit_of(const std::string& text) {
@@ -205,4 +205,4 @@ TEST(TomlEdit, RefusesWhatIsNoToml) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::files

@@ -6,7 +6,7 @@
 
 #include "tests/app/pipeline/measurement/measurement_bench.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using hal::Clock;
@@ -148,4 +148,4 @@ TEST_F(MeasuredAlarms, ANoticeBeforeTheFirstSetHasATimeStamp) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

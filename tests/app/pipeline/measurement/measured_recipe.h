@@ -7,7 +7,7 @@
 
 #include "app/pipeline/measurement/compiled_recipe.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Recipe with one view, the first source of which is measured, and one region that covers all of
 /// it. The geometry of the machine is unknown.
@@ -29,4 +29,4 @@ inline std::unique_ptr<CompiledRecipe> compiled(RecipePlan plan) {
   return CompiledRecipe::make(std::move(plan), {}).value();
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -17,7 +17,7 @@
 #include "tests/app/pipeline/views/rendered_view.h"
 #include "tests/app/pipeline/views/thermal_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 inline constexpr std::uint16_t kBright = 40000;
 
@@ -141,4 +141,4 @@ class MeasurementTest : public testing::Test {
   std::vector<AlarmNotice> notices;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -12,7 +12,7 @@
 
 #include "tests/app/pipeline/measurement/measurement_bench.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using hal::Clock;
@@ -350,4 +350,4 @@ TEST_F(MeasurementTest, TheProcessIsActiveAsTheRecipeSays) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

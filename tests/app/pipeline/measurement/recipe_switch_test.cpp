@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using hal::Clock;
@@ -342,4 +342,4 @@ TEST_P(RandomOrders, EveryFrameBelongsToWhatCamerasWereSetToThen) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomOrders, testing::Range(0U, 12U, 3U));
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -13,7 +13,7 @@
 #include "proc/optics/rotation.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 constexpr int kRoomSide = 300;
@@ -185,4 +185,4 @@ TEST_F(ExposureMatchTest, WaitsForACameraThatDoesNotDeliver) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -13,7 +13,7 @@
 #include "hal/frame/frame_pool.h"
 #include "proc/remap/sampling/pyramid.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 constexpr std::array kFormats{hal::StreamFormat{PixelFormat::Grey, {}, 64, 48, 30},
@@ -247,4 +247,4 @@ TEST(PictureUse, HoldsSoManyStrengths) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

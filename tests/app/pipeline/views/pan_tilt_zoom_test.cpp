@@ -12,7 +12,7 @@
 
 #include "tests/app/pipeline/views/pointed_views.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 /// Fixture without a pipeline: the test exchanges renderers itself. The right view is large: its
@@ -131,4 +131,4 @@ TEST(PanTiltZoom, ABallsOwnPictureIsNotPointed) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -9,7 +9,7 @@
 #include "app/pipeline/views/pan_tilt_zoom.h"
 #include "tests/app/pipeline/hand_camera.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 // Indices of two views to point, and one that is measured.
 inline constexpr std::size_t kLeft = 0, kRight = 1, kMeasured = 2;
@@ -36,4 +36,4 @@ inline ViewPlan view_plan(std::size_t index, optics::ViewKind kind, const Pointi
           std::nullopt};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -9,7 +9,7 @@
 #include "app/pipeline/views/view_buffers.h"
 #include "app/pipeline/views/view_renderer.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// Formats by camera, for the view's sources.
 inline std::vector<hal::StreamFormat> source_formats(const ViewPlan& plan) {
@@ -52,7 +52,7 @@ class RenderedView {
     set_format(PixelFormat::Rgb);
   }
 
-  void set_format(std::optional<PixelFormat> format) { app::set_format(view_, format); }
+  void set_format(std::optional<PixelFormat> format) { app::pipeline::set_format(view_, format); }
 
   const ViewPlan& plan() const { return renderer_.plan(); }
 
@@ -69,4 +69,4 @@ class RenderedView {
   View view_;
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 TEST(SourceColours, CountsOfARadiometricCameraFollowItsScale) {
@@ -17,4 +17,4 @@ TEST(SourceColours, CountsOfARadiometricCameraFollowItsScale) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -9,7 +9,7 @@
 #include "proc/optics/rotation.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 constexpr int kStillSide = 200;
@@ -92,4 +92,4 @@ TEST(StillView, KeepsSixteenBitCounts) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

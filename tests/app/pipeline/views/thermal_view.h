@@ -8,7 +8,7 @@
 #include "app/pipeline/views/view_plan.h"
 #include "tests/app/pipeline/hand_camera.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 
 /// View of a 16-bit HandCamera's picture, whose ball fills the frame.
 inline ViewPlan thermal_view(std::size_t index, std::string name, std::size_t camera = 0) {
@@ -25,4 +25,4 @@ inline ViewPlan thermal_view(std::size_t index, std::string name, std::size_t ca
           std::nullopt};
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

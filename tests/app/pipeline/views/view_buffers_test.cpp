@@ -14,7 +14,7 @@
 
 #include "tests/app/pipeline/views/thermal_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 constexpr std::size_t kMeasuredSource = 0;
@@ -140,4 +140,4 @@ TEST(ViewBuffers, TakeNoMemoryBeforeTheyAreUsed) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -11,7 +11,7 @@
 #include "tests/app/pipeline/views/rendered_view.h"
 #include "tests/app/pipeline/views/thermal_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 class ViewChannelTest : public testing::Test {
@@ -131,4 +131,4 @@ TEST_F(ViewChannelTest, AChannelKeepsNothingOfWhatWasTaken) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

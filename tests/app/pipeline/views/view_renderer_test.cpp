@@ -9,7 +9,7 @@
 #include "proc/optics/rotation.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::pipeline {
 namespace {
 
 using optics::BallModel;
@@ -314,4 +314,4 @@ TEST_F(ViewRendererTest, OneChannelIsNeverSharpened) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::pipeline

@@ -19,7 +19,7 @@
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::eventually;
@@ -116,4 +116,4 @@ TEST(CameraInfoTopics, ACameraWithAKnownLensHasItsCameraInfoBesideItsPicture) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -46,8 +46,8 @@ class DdsNetwork {
   }
 
  private:
-  Entity sink_domain_;
-  Entity reader_domain_;
+  dds::Entity sink_domain_;
+  dds::Entity reader_domain_;
 };
 
 /// Repeats `step` until it returns true; false: not within a generous time limit.

@@ -14,7 +14,7 @@
 #include "tests/app/ports/dds/test_views.h"
 
 /// Effects of the sink's settings, and refused settings.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::eventually;
@@ -230,4 +230,4 @@ TEST(DdsSinkStartTest, NamesAreChecked) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

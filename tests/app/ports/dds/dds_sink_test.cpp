@@ -20,7 +20,7 @@
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::eventually;
@@ -485,4 +485,4 @@ TEST_F(DdsSinkTest, ViewsWithoutATopicAreCounted) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

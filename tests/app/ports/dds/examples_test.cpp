@@ -15,7 +15,7 @@
 #include "tests/support/loopback_dds.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 const std::string kExamples = ORBWATCH_SOURCE_DIR "/app/ports/dds/examples";
@@ -66,4 +66,4 @@ TEST(Examples, PythonCanReadTheRosNodes) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -15,9 +15,9 @@
 namespace orbwatch::app::tests {
 
 /// The components of a kind, in their order.
-inline std::vector<ComponentMessage> of_kind(const ProcessStateMessage& message,
-                                             std::string_view kind) {
-  std::vector<ComponentMessage> found;
+inline std::vector<dds::ComponentMessage> of_kind(const dds::ProcessStateMessage& message,
+                                                  std::string_view kind) {
+  std::vector<dds::ComponentMessage> found;
   for (const auto& component : std::span(message.components._buffer, message.components._length)) {
     if (component.kind == kind) found.push_back(component);
   }
@@ -25,14 +25,14 @@ inline std::vector<ComponentMessage> of_kind(const ProcessStateMessage& message,
 }
 
 /// A figure by its name; fails the test if it is missing.
-inline FigureMessage figure(const FigureSequence& figures, std::string_view name) {
-  for (const FigureMessage& figure : std::span(figures._buffer, figures._length)) {
+inline dds::FigureMessage figure(const dds::FigureSequence& figures, std::string_view name) {
+  for (const dds::FigureMessage& figure : std::span(figures._buffer, figures._length)) {
     if (figure.name == name) return figure;
   }
   ADD_FAILURE() << "no figure " << name;
   return {};
 }
-inline double value(const ComponentMessage& component, std::string_view name) {
+inline double value(const dds::ComponentMessage& component, std::string_view name) {
   return figure(component.figures, name).value;
 }
 

@@ -15,9 +15,9 @@ namespace orbwatch::app::tests {
 /// Any program on the network: writes given samples, valid or not, without losses.
 class ForeignWriter {
  public:
-  ForeignWriter(int domain, const dds_topic_descriptor_t& type, const std::string& topic, Qos qos,
-                const std::optional<SecuritySettings>& security = std::nullopt)
-      : participant_(Participant::join(domain, security).value()),
+  ForeignWriter(int domain, const dds_topic_descriptor_t& type, const std::string& topic,
+                dds::Qos qos, const std::optional<dds::SecuritySettings>& security = std::nullopt)
+      : participant_(dds::Participant::join(domain, security).value()),
         topic_(make_topic(participant_.entity(), type, topic).value()) {
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 100);
     writer_ = make_writer(participant_.entity(), topic_, qos).value();
@@ -38,9 +38,9 @@ class ForeignWriter {
   bool flush() const { return dds_wait_for_acks(writer_.get(), DDS_SECS(60)) == DDS_RETCODE_OK; }
 
  private:
-  Participant participant_;
-  Entity topic_;
-  Entity writer_;
+  dds::Participant participant_;
+  dds::Entity topic_;
+  dds::Entity writer_;
 };
 
 }  // namespace orbwatch::app::tests

@@ -15,7 +15,7 @@
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::eventually;
@@ -146,4 +146,4 @@ TEST_F(KeptViewsTest, AJpegThatWasDueWaitsBesideTheNewest) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -14,7 +14,7 @@
 #include "tests/app/ports/dds/topic_reader.h"
 
 /// Test data for the sink, and readers of its topics and counts.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 inline constexpr int kWidth = 160;
 inline constexpr int kHeight = 90;
@@ -50,4 +50,4 @@ inline std::uint64_t sum(const TopicStatistics& topic) {
          topic.failed;
 }
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -22,10 +22,10 @@ class TopicReader {
  public:
   using Look = std::function<void(const Message&)>;
 
-  TopicReader(const dds_topic_descriptor_t& type, const std::string& topic, const Qos& qos,
+  TopicReader(const dds_topic_descriptor_t& type, const std::string& topic, const dds::Qos& qos,
               int domain = DdsNetwork::kReaderDomain,
-              const std::optional<SecuritySettings>& security = std::nullopt)
-      : participant_(Participant::join(domain, security).value()),
+              const std::optional<dds::SecuritySettings>& security = std::nullopt)
+      : participant_(dds::Participant::join(domain, security).value()),
         topic_(make_topic(participant_.entity(), type, topic).value()),
         reader_(make_reader(participant_.entity(), topic_, qos).value()),
         condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE)),
@@ -60,11 +60,11 @@ class TopicReader {
   }
 
  private:
-  Participant participant_;
-  Entity topic_;
-  Entity reader_;
-  Entity condition_;
-  Entity waitset_;
+  dds::Participant participant_;
+  dds::Entity topic_;
+  dds::Entity reader_;
+  dds::Entity condition_;
+  dds::Entity waitset_;
 };
 
 }  // namespace orbwatch::app::tests

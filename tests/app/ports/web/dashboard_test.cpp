@@ -33,8 +33,8 @@ std::vector<InterfaceMetric> interface_metrics() {
   add_metrics(all, {"modbus"}, modbus::ServerStatus{}, {});
   add_metrics(all, {"modbus_results"}, modbus::ResultQueueStatus{}, {});
   add_metrics(all, {"modbus_plc"}, modbus::PlcStatus{}, {});
-  add_metrics(all, {"dds"}, DdsCounts{}, {});
-  add_metrics(all, {"dds_topic", "rt/orbwatch/event"}, TopicStatistics{}, {});
+  add_metrics(all, {"dds"}, dds::DdsCounts{}, {});
+  add_metrics(all, {"dds_topic", "rt/orbwatch/event"}, dds::TopicStatistics{}, {});
   return all;
 }
 

@@ -146,7 +146,7 @@ RenderedPair rendered_pair(const std::string& name, const std::string& camera,
                            RenderedScene::Known known = RenderedScene::Known::BoxAndTable) {
   const RenderedScene scene(name);
   RenderedPair pair;
-  pair.sought.rig = app::parse_rig(scene.rig(known), "rig.toml", "").value();
+  pair.sought.rig = app::files::parse_rig(scene.rig(known), "rig.toml", "").value();
   for (std::size_t n = 0; n < scene.cameras().size(); ++n) {
     const RenderedCamera& seen = scene.cameras()[n];
     const cv::Mat pixels =

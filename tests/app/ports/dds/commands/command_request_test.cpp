@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using testing::HasSubstr;
@@ -115,4 +115,4 @@ TEST(RequestOf, CutsWhatIsOversizedSoThatItIsRefused) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

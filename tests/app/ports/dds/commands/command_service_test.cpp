@@ -21,7 +21,7 @@
 #include "tests/app/ports/dds/topic_reader.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using testing::HasSubstr;
@@ -433,4 +433,4 @@ TEST(CommandClientTest, RefusesAnAnswerThatNobodyKnows) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

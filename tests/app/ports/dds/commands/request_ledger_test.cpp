@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using Verdict = RequestLedger::Verdict;
@@ -37,4 +37,4 @@ TEST(RequestLedgerTest, ForgetsWhoAskedLongestAgo) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -14,7 +14,7 @@
 #include "tests/app/ports/dds/offering_sink.h"
 
 /// Pictures in the other encodings, compared pixel by pixel.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using orbwatch::tests::foreign_reader;
@@ -118,4 +118,4 @@ TEST_F(EncodingOnTheWire, JpegShowsThePicture) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

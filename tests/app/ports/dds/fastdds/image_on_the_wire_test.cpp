@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 
 /// Pictures of the sink received by another vendor's reader, with the shipped network settings.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using orbwatch::tests::foreign_reader;
@@ -122,4 +122,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& path) { return std::string(path.param.name); });
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -16,7 +16,7 @@
 
 /// Failures of readers and cables: pictures reach the remaining readers, the pipeline never waits,
 /// every picture is accounted for and memory does not grow.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using orbwatch::tests::foreign_reader;
@@ -215,4 +215,4 @@ TEST_F(NetworkFault, ALateReaderGetsTheLastState) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

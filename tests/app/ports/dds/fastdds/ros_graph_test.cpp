@@ -9,7 +9,7 @@
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
 
 /// Announcements for ROS 2's graph, received by another vendor's reader.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using orbwatch::tests::foreign_reader;
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Generations, RosGraph,
                          });
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

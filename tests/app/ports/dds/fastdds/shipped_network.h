@@ -42,7 +42,7 @@ class ShippedNetwork {
   std::string profile() const { return "file://" ORBWATCH_SOURCE_DIR "/platform/dds/" + profile_; }
 
   /// Starts the sink and waits until it has joined the domain.
-  void start(DdsSink& sink) const {
+  void start(dds::DdsSink& sink) const {
     setenv("CYCLONEDDS_URI", profile().c_str(), 1);
     writers_.run([&sink] {
       const auto started = sink.start();

@@ -22,7 +22,7 @@
 
 /// Compares views of `orbwatchd` received by another vendor's reader with the simulated machine:
 /// rays from the ball's centre, independent of camera, mirror and remapping.
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using orbwatch::tests::foreign_reader;
@@ -243,4 +243,4 @@ TEST_F(SimulatedView, CountsAreTheTemperaturesOfTheMachine) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -11,7 +11,7 @@
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/thumbnail.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST(ThumbnailMessage, IsASmallJpegThatIsWhole) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -18,7 +18,7 @@
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::DdsNetwork;
@@ -229,4 +229,4 @@ TEST_F(FleetOnTheWire, PicturesOfStrangersAreSmallAndWholeOrNotThere) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 /// Each of these makes Cyclone DDS log at least one error.
@@ -38,4 +38,4 @@ TEST(LimitDdsLogDeathTest, WhatCycloneLogsArrivesAndIsLimited) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 TEST(EntityTest, IsDeletedWithItsOwnerAndMoves) {
@@ -30,4 +30,4 @@ TEST(EntityTest, ErrorsSayWhatAndWhy) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -7,7 +7,7 @@
 
 #include "hal/thread/file_descriptor.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 const NetworkAddress kLoopback{"lo", "127.0.0.1"}, kWire{"eth0", "192.168.0.7"},
@@ -65,4 +65,4 @@ TEST(BoundAddresses, AreThoseOfUdpSocketsForOneAddress) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

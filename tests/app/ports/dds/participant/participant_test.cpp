@@ -13,7 +13,7 @@
 #include "tests/app/ports/dds/dds_network.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 constexpr int kDomain = 3;
@@ -141,4 +141,4 @@ TEST(ParticipantTest, ASinkWaitsForAnInterfaceThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

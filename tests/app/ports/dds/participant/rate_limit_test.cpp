@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using std::chrono::seconds;
@@ -23,4 +23,4 @@ TEST(RateLimitTest, AdmitsTheLimitPerPeriodAndTellsWhatItWithheld) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -5,7 +5,7 @@
 
 #include "proc/optics/rotation.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using optics::ViewKind;
@@ -107,4 +107,4 @@ TEST(CameraInfo, OtherKindsHaveNone) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/topic_reader.h"
 #include "tests/app/ports/dds/wire.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::Bytes;
@@ -147,4 +147,4 @@ INSTANTIATE_TEST_SUITE_P(Generations, DiscoveryInfoTest,
                          });
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -19,7 +19,7 @@
 #include "app/ports/dds/generated/process_state.h"
 #include "app/ports/dds/generated/type_hashes.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 struct Published {
@@ -131,4 +131,4 @@ TEST(TypeHash, AForeignTypeIsNotAnnounced) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -8,7 +8,7 @@
 
 #include <fnmatch.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using std::chrono::sys_days;
@@ -141,4 +141,4 @@ TEST(TopicAccessTest, IsWhatEachNeedsAndNoMore) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

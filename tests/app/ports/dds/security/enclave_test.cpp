@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/security/openssl_program.h"
 #include "tests/app/ports/dds/security/test_keystore.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST(SignedDocumentTest, OnlyTheSignerItselfCounts) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -26,7 +26,7 @@
 #include "tests/app/ports/dds/test_views.h"
 #include "tests/app/ports/dds/topic_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 namespace fs = std::filesystem;
@@ -385,4 +385,4 @@ TEST(SecureWire, ShowsNeitherPixelsNorNames) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -7,7 +7,7 @@
 
 #include "tests/app/ports/dds/test_status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 class Diagnostics : public testing::Test {
@@ -218,4 +218,4 @@ TEST_F(Diagnostics, TheMessageHoldsThemAll) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -9,7 +9,7 @@
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/topic_reader.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using signals::AlarmEventKind;
@@ -158,4 +158,4 @@ TEST_F(EventMessageTest, AStoppedSinkHoldsNothing) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using testing::ElementsAre;
@@ -37,4 +37,4 @@ TEST(NetworkDiagnostic, WarnsOfWhatWasRefusedOrGivenUp) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -6,7 +6,7 @@
 #include "tests/app/ports/dds/figures.h"
 #include "tests/app/ports/dds/test_status.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::of_kind;
@@ -121,4 +121,4 @@ TEST_F(ProcessStateComposerTest, MemoryIsReused) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

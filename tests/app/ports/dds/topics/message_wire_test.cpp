@@ -9,7 +9,7 @@
 #include "tests/app/ports/dds/topic_reader.h"
 #include "tests/app/ports/dds/wire.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::Bytes;
@@ -97,4 +97,4 @@ TEST_F(MessageWire, DiagnosticArray) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

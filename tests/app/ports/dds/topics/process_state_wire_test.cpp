@@ -12,7 +12,7 @@
 #include "tests/app/ports/dds/topic_reader.h"
 #include "tests/app/ports/dds/wire.h"
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 using tests::announcement;
@@ -163,4 +163,4 @@ TEST_F(WireFormatTest, EventIsPlainCdr) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 namespace {
 
 TEST(TopicNamesTest, AreThoseOfRos2) {
@@ -41,4 +41,4 @@ TEST(TopicNamesTest, PathsHaveSoundParts) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds
