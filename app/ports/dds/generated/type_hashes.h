@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace orbwatch::app {
+namespace orbwatch::app::dds {
 
 /// A type by its name on DDS, and its hash in ROS 2 (REP 2011).
 struct TypeHash {
@@ -55,4 +55,4 @@ inline constexpr std::array kTypeHashes{
              "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01"},
 };
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch::app::dds
