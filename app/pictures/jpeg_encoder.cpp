@@ -28,6 +28,9 @@ bool is_jfif(const Picture& picture) {
 }  // namespace
 
 int JpegEncoder::compress(const Picture& picture, int quality, unsigned long& size) {
+  // The fast transform's rounding is coarser than the finest quantisation.
+  constexpr int kFinest = 90;
+  const int flags = TJFLAG_NOREALLOC | (quality > kFinest ? TJFLAG_ACCURATEDCT : 0);
   unsigned char* out = jpeg_.data();
   if (is_jfif(picture)) {
     std::array<const unsigned char*, 3> planes;
@@ -37,15 +40,13 @@ int JpegEncoder::compress(const Picture& picture, int quality, unsigned long& si
       strides[n] = static_cast<int>(picture.planes[n].stride);
     }
     return tjCompressFromYUVPlanes(encoder_.get(), planes.data(), picture.width, strides.data(),
-                                   picture.height, TJSAMP_420, &out, &size, quality,
-                                   TJFLAG_NOREALLOC);
+                                   picture.height, TJSAMP_420, &out, &size, quality, flags);
   }
   const bool grey = is_grey(picture.format);
   const int layout = grey ? TJPF_GRAY : picture.format == PixelFormat::Bgr ? TJPF_BGR : TJPF_RGB;
   return tjCompress2(encoder_.get(), reinterpret_cast<const unsigned char*>(picture.planes[0].data),
                      picture.width, static_cast<int>(picture.planes[0].stride), picture.height,
-                     layout, &out, &size, grey ? TJSAMP_GRAY : TJSAMP_420, quality,
-                     TJFLAG_NOREALLOC);
+                     layout, &out, &size, grey ? TJSAMP_GRAY : TJSAMP_420, quality, flags);
 }
 
 Result<std::span<std::uint8_t>> JpegEncoder::encode(const Picture& picture, int quality) {

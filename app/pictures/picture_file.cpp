@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
-#include <vector>
 
+#include "app/pictures/jpeg_encoder.h"
+#include "app/pictures/png_encoder.h"
 #include "hal/atomic_file.h"
-#include "proc/align/first_plane.h"
 #include "proc/image/image_view.h"
 
 namespace orbwatch::app {
@@ -20,28 +18,6 @@ std::string lower_extension(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-/// Converts to OpenCV's order of channels.
-cv::Mat to_bgr(const Picture& picture) {
-  const cv::Mat rgb = align::first_plane(picture);
-  if (rgb.channels() == 1) return rgb;
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  return bgr;
-}
-
-cv::Mat with_alpha(const cv::Mat& picture, const ImageView<const std::uint8_t>& validity) {
-  cv::Mat bgra;
-  cv::cvtColor(picture, bgra, picture.channels() == 1 ? cv::COLOR_GRAY2BGRA : cv::COLOR_BGR2BGRA);
-  const cv::Mat seen(validity.height, validity.width, CV_8U,
-                     const_cast<std::uint8_t*>(validity.data),
-                     static_cast<std::size_t>(validity.stride));
-  cv::Mat alpha;
-  cv::Mat(seen == static_cast<int>(Validity::Seen))
-      .convertTo(alpha, bgra.depth(), bgra.depth() == CV_16U ? 257 : 1);
-  cv::insertChannel(alpha, bgra, 3);
-  return bgra;
 }
 
 }  // namespace
@@ -65,20 +41,19 @@ Result<> write_picture(const std::filesystem::path& path, const Picture& picture
                        const ImageView<const std::uint8_t>& validity) {
   if (auto named = check_picture_name(path, picture.format, !validity.empty()); !named)
     return named;
-  std::vector<std::uint8_t> bytes;
-  try {
-    const cv::Mat bgr = to_bgr(picture);
-    const cv::Mat encoded = validity.empty() ? bgr : with_alpha(bgr, validity);
-    const bool jpeg = lower_extension(path) != ".png";
-    const std::vector<int> options =
-        jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95} : std::vector<int>{};
-    if (!cv::imencode(jpeg ? ".jpg" : ".png", encoded, bytes, options)) {
-      return fail(path.string() + ": the picture cannot be encoded");
-    }
-  } catch (const cv::Exception& error) {
-    return fail(path.string() + ": the picture cannot be encoded: " + error.err);
+  const auto named = [&path](const Error& error) {
+    return fail(path.string() + ": the picture cannot be encoded: " + error.message);
+  };
+  if (lower_extension(path) == ".png") {
+    const auto png = encode_png(picture, validity);
+    if (!png) return named(png.error());
+    return hal::write_file(path, *png);
   }
-  return hal::write_file(path, bytes);
+  constexpr int kQuality = 95;
+  JpegEncoder encoder;
+  const auto jpeg = encoder.encode(picture, kQuality);
+  if (!jpeg) return named(jpeg.error());
+  return hal::write_file(path, *jpeg);
 }
 
 }  // namespace orbwatch::app

@@ -119,7 +119,8 @@ Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
   if (colours != JCS_GRAYSCALE && colours != JCS_YCbCr && colours != JCS_RGB) {
     return fail("a CMYK JPEG picture; grey and YCbCr are read");
   }
-  return JpegSize{static_cast<int>(picture.image_width), static_cast<int>(picture.image_height)};
+  return JpegSize{static_cast<int>(picture.image_width), static_cast<int>(picture.image_height),
+                  colours == JCS_GRAYSCALE};
 }
 
 Result<> JpegDecoder::open(int width, int height, std::span<const std::byte> jpeg) {
@@ -134,20 +135,21 @@ Result<> JpegDecoder::open(int width, int height, std::span<const std::byte> jpe
 Result<> JpegDecoder::check(std::span<const std::byte> jpeg) {
   if (const auto size = read_size(jpeg); !size) return tl::unexpected(size.error());
   // At an eighth of the size, the entropy-coded data is still read completely.
-  if (auto started = reader_->start_grey(8); !started) return started;
+  if (auto started = reader_->start_rows(JCS_GRAYSCALE, 8); !started) return started;
   const auto width = static_cast<int>(reader_->picture().output_width);
   const auto height = static_cast<int>(reader_->picture().output_height);
   thumbnail_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  return reader_->read_grey({thumbnail_.data(), width, height, 1, width}).and_then([this] {
+  return reader_->read_rows({thumbnail_.data(), width, height, 1, width}).and_then([this] {
     return reader_->finish();
   });
 }
 
-Result<> JpegDecoder::decode_grey(std::span<const std::byte> jpeg,
-                                  const ImageView<std::uint8_t>& target) {
+Result<> JpegDecoder::decode_packed(std::span<const std::byte> jpeg,
+                                    const ImageView<std::uint8_t>& target) {
+  const J_COLOR_SPACE colours = target.channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
   return open(target.width, target.height, jpeg)
-      .and_then([this] { return reader_->start_grey(1); })
-      .and_then([&] { return reader_->read_grey(target); })
+      .and_then([&] { return reader_->start_rows(colours, 1); })
+      .and_then([&] { return reader_->read_rows(target); })
       .and_then([this] { return reader_->finish(); });
 }
 

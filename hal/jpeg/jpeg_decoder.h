@@ -18,6 +18,7 @@ namespace orbwatch::hal {
 struct JpegSize {
   int width = 0;
   int height = 0;
+  bool is_grey = false;  ///< has luminance only
 };
 
 class JpegReader;
@@ -45,13 +46,13 @@ class JpegDecoder {
   /// data.
   Result<> check(std::span<const std::byte> jpeg);
 
-  /// Decodes the luminance only, into `target`, 1 channel of 8 bit. Errors as check, and another
-  /// size than target's; target's pixels are then undefined.
-  Result<> decode_grey(std::span<const std::byte> jpeg, const ImageView<std::uint8_t>& target);
+  /// Decodes into `target` of 8 bit: the luminance only with 1 channel, R'G'B' with 3. Errors as
+  /// check, and another size than target's; target's pixels are then undefined.
+  Result<> decode_packed(std::span<const std::byte> jpeg, const ImageView<std::uint8_t>& target);
 
   /// Decodes into `target`, Nv12, BT.601 of full range, without conversion to RGB. Finer chroma is
-  /// averaged; grey pictures get neutral chroma. Errors as decode_grey, an RGB picture, and chroma
-  /// for other than 1, 2 or 4 columns and 1 or 2 rows.
+  /// averaged; grey pictures get neutral chroma. Errors as decode_packed, an RGB picture, and
+  /// chroma for other than 1, 2 or 4 columns and 1 or 2 rows.
   Result<> decode_nv12(std::span<const std::byte> jpeg, const MutablePicture& target);
 
  private:

@@ -123,16 +123,16 @@ Result<> JpegReader::start(Call call) {
   return open(before).and_then([&] { return completes(call) ? Result<>() : failed(kDamaged); });
 }
 
-Result<> JpegReader::start_grey(unsigned reduction) {
-  return start([this, reduction] {
-    picture_.out_color_space = JCS_GRAYSCALE;
+Result<> JpegReader::start_rows(J_COLOR_SPACE colours, unsigned reduction) {
+  return start([this, colours, reduction] {
+    picture_.out_color_space = colours;
     picture_.scale_num = 1;
     picture_.scale_denom = reduction;
     jpeg_start_decompress(&picture_);
   });
 }
 
-Result<> JpegReader::read_grey(const ImageView<std::uint8_t>& target) {
+Result<> JpegReader::read_rows(const ImageView<std::uint8_t>& target) {
   const bool read = completes([this, &target] {
     while (picture_.output_scanline < picture_.output_height) {
       JSAMPROW row = target.row(static_cast<int>(picture_.output_scanline));

@@ -33,14 +33,14 @@ class JpegReader {
   /// The header after open(); after a start, the sizes of the rows that are read.
   const jpeg_decompress_struct& picture() const { return picture_; }
 
-  /// Luminance at 1/`reduction` of the size: 1 or 8. Errors: as read_grey(), since pictures of
-  /// several scans are read here.
-  Result<> start_grey(unsigned reduction);
-  /// Decodes all rows into `target`, of the picture's output size. Errors: damaged, more scans than
-  /// a picture needs.
-  Result<> read_grey(const ImageView<std::uint8_t>& target);
+  /// Rows of `colours` (JCS_GRAYSCALE or JCS_RGB) at 1/`reduction` of the size: 1 or 8. Errors: as
+  /// read_rows(), since pictures of several scans are read here.
+  Result<> start_rows(J_COLOR_SPACE colours, unsigned reduction);
+  /// Decodes all rows into `target`, of the picture's output size and channels. Errors: damaged,
+  /// more scans than a picture needs.
+  Result<> read_rows(const ImageView<std::uint8_t>& target);
 
-  /// Starts reading the components as they were compressed. Errors: as start_grey().
+  /// Starts reading the components as they were compressed. Errors: as start_rows().
   Result<> start_components();
   /// Decodes the next row of MCUs: DCTSIZE rows for each of a component's vertical samples, whole
   /// blocks wide. Errors: damaged.

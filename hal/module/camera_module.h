@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -8,12 +9,14 @@
 
 #include "hal/camera.h"
 #include "hal/inventory.h"
+#include "hal/replay/recording.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::hal {
 
 /// Version of the descriptor below. A change of CameraModule increments it; changes of the classes
 /// that cross the boundary are detected by the build id.
-inline constexpr int kCameraModuleInterface = 1;
+inline constexpr int kCameraModuleInterface = 2;
 
 /// Description that a module exports. The first two members never move: they are read before it is
 /// known whether the rest is understood. All texts and functions live as long as the program.
@@ -21,9 +24,10 @@ struct CameraModule {
   int interface_version = kCameraModuleInterface;
   /// Identifies the headers that the module was compiled with: ORBWATCH_MODULE_BUILD_ID.
   const char* build_id = nullptr;
-  /// Word of the back-end in a configuration.
+  /// Word of the back-end in a configuration, or kVideoModule.
   std::string_view back_end;
-  /// `settings` is the back-end's own settings struct. Thread-safe.
+  /// `settings` is the back-end's own settings struct. Thread-safe. Null for kVideoModule, as the
+  /// two that follow.
   std::unique_ptr<Camera> (*make_camera)(const void* settings,
                                          const CameraContext& context) = nullptr;
   /// Connected cameras; one entry with the reason when they cannot be listed. Disturbs no stream.
@@ -31,6 +35,10 @@ struct CameraModule {
   std::vector<CameraEntry> (*list_cameras)() = nullptr;
   /// Version of the library in use. Thread-safe.
   std::string (*library_version)() = nullptr;
+  /// Opens a video for the back-end replay; null except for kVideoModule. Errors: not a video, its
+  /// first picture cannot be decoded. Thread-safe.
+  Result<std::unique_ptr<Recording>> (*open_recording)(const std::filesystem::path& file,
+                                                       bool loop) = nullptr;
 };
 
 /// Name of the function with C linkage that each module exports: `const CameraModule*

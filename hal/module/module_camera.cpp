@@ -67,7 +67,7 @@ std::vector<CameraEntry> list_module_cameras() {
 
 std::vector<std::pair<std::string, std::string>> module_versions() {
   std::vector<std::pair<std::string, std::string>> versions;
-  versions.reserve(kModuleBackEnds.size());
+  versions.reserve(kModuleBackEnds.size() + 1);
   for (const std::string_view back_end : kModuleBackEnds) {
     std::string version = "not installed";
     if (is_installed(back_end)) {
@@ -76,6 +76,7 @@ std::vector<std::pair<std::string, std::string>> module_versions() {
     }
     versions.emplace_back(back_end, std::move(version));
   }
+  versions.emplace_back(kVideoModule, is_installed(kVideoModule) ? "installed" : "not installed");
   return versions;
 }
 

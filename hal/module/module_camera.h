@@ -25,7 +25,8 @@ std::vector<CameraEntry> list_module_cameras(std::string_view back_end);
 /// Connected cameras of all modules.
 std::vector<CameraEntry> list_module_cameras();
 
-/// Library of each module and its version, or the reason why it is missing. Thread-safe.
+/// Library of each module and its version, or the reason why it is missing; of kVideoModule, which
+/// is not loaded for this, only whether it is installed. Thread-safe.
 std::vector<std::pair<std::string, std::string>> module_versions();
 
 }  // namespace orbwatch::hal

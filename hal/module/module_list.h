@@ -13,4 +13,8 @@ namespace orbwatch::hal {
 /// package orbwatch-camera-NAME.
 inline constexpr std::array kModuleBackEnds{LibcameraSettings::kName, GenicamSettings::kName};
 
+/// The module that opens videos for the back-end replay; file and package are named alike. Its
+/// libraries take long to load, so it is loaded by the first video only.
+inline constexpr std::string_view kVideoModule = "video";
+
 }  // namespace orbwatch::hal

@@ -32,8 +32,8 @@ bool begins_with(Bytes data, std::string_view text) {
                             [](char c) { return static_cast<std::byte>(c); });
 }
 
-/// The orientation of a TIFF file's first directory.
-std::optional<std::uint32_t> tiff_orientation(Bytes tiff) {
+/// The orientation of a TIFF file's first directory, as it is written there.
+std::optional<std::uint32_t> stated_orientation(Bytes tiff) {
   constexpr std::uint32_t kOrientation = 0x0112, kShort = 3;
   constexpr std::size_t kEntryBytes = 12;
   const bool big_endian = begins_with(tiff, "MM");
@@ -81,11 +81,14 @@ int exif_orientation(std::span<const std::byte> jpeg) {
   while (const auto segment = take_segment(rest)) {
     if (segment->marker != kApp1 || !begins_with(segment->content, kExif)) continue;
     if (segment->content.size() < kExifBytes) return kUpright;
-    const auto orientation = tiff_orientation(segment->content.subspan(kExifBytes));
-    return orientation && *orientation >= 1 && *orientation <= 8 ? static_cast<int>(*orientation)
-                                                                 : kUpright;
+    return tiff_orientation(segment->content.subspan(kExifBytes));
   }
   return kUpright;
+}
+
+int tiff_orientation(std::span<const std::byte> tiff) {
+  const auto stated = stated_orientation(tiff);
+  return stated && *stated >= 1 && *stated <= 8 ? static_cast<int>(*stated) : kUpright;
 }
 
 }  // namespace orbwatch::hal

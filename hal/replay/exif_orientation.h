@@ -11,4 +11,7 @@ namespace orbwatch::hal {
 /// XMP, also in an APP1 segment, may precede it. 1 for data without a valid orientation. Reentrant.
 int exif_orientation(std::span<const std::byte> jpeg);
 
+/// The same of EXIF data alone, which begins with a TIFF header.
+int tiff_orientation(std::span<const std::byte> tiff);
+
 }  // namespace orbwatch::hal

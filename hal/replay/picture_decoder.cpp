@@ -5,137 +5,126 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <new>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "hal/jpeg/jpeg_decoder.h"
+#include "hal/png/png_decoder.h"
 #include "hal/replay/exif_orientation.h"
-#include "hal/replay/png_check.h"
 
 namespace orbwatch::hal {
 namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
-struct CheckedFile {
-  std::uint32_t width = 0;  ///< width in the file, before the orientation is applied
-  std::uint32_t height = 0;
-  bool is_flawed = false;
-  std::size_t jpeg_bytes = 0;  ///< size of a flawed JPEG picture, without the data that follows it
-
-  std::uint32_t side() const { return std::max(width, height); }
+/// A picture whose pixels are to be written.
+struct NewPicture {
+  DecodedPicture decoded;
+  MutablePicture pixels;
 };
 
-/// OpenCV repairs a damaged file and reports it on stderr only; so the file is checked first.
-Result<CheckedFile> check_file(std::span<const std::byte> file) {
-  if (is_png(file)) {
-    const auto size = check_png(file);
-    if (!size) return tl::unexpected(size.error());
-    return CheckedFile{size->width, size->height};
+/// Errors: a side above kMaxSide, out of memory.
+Result<NewPicture> make_picture(PixelFormat format, int width, int height) {
+  if (const int side = std::max(width, height); side > kMaxSide) {
+    return fail("is " + std::to_string(side) + " pixels long or wide; at most " +
+                std::to_string(kMaxSide) + " are read");
   }
-  constexpr std::array kJpegStart{std::byte{0xff}, std::byte{0xd8}, std::byte{0xff}};
-  if (file.size() < kJpegStart.size() ||
-      !std::equal(kJpegStart.begin(), kJpegStart.end(), file.begin())) {
-    return fail("is neither a JPEG nor a PNG picture");
+  const int stride = row_bytes(format, width);
+  NewPicture made;
+  made.decoded.storage.reset(new (
+      std::nothrow) std::byte[picture_bytes(format, static_cast<std::size_t>(stride), height)]);
+  if (!made.decoded.storage) return fail("cannot be decoded: out of memory");
+  made.pixels =
+      MutablePicture::contiguous(format, width, height, made.decoded.storage.get(), stride);
+  made.pixels.colour_space.range = ColourRange::Full;
+  made.decoded.picture = made.pixels;
+  return made;
+}
+
+/// Steps through a stored picture, in bytes, in the order of the upright picture's pixels.
+struct Walk {
+  const std::byte* first;
+  std::ptrdiff_t column;
+  std::ptrdiff_t row;
+};
+
+/// The least orientation, see exif_orientation(), that exchanges rows and columns.
+constexpr int kFirstTransposed = 5;
+
+Walk upright_walk(const Picture& stored, int pixel_bytes, int orientation) {
+  constexpr std::array kFromRight{2, 3, 7, 8}, kFromBelow{3, 4, 6, 7};
+  Walk walk{stored.planes[0].data, pixel_bytes, stored.planes[0].stride};
+  if (std::ranges::count(kFromRight, orientation) > 0) {
+    walk.first += (stored.width - 1) * walk.column;
+    walk.column = -walk.column;
   }
+  if (std::ranges::count(kFromBelow, orientation) > 0) {
+    walk.first += (stored.height - 1) * walk.row;
+    walk.row = -walk.row;
+  }
+  if (orientation >= kFirstTransposed) std::swap(walk.column, walk.row);
+  return walk;
+}
+
+/// Turns the picture upright by its EXIF orientation. Error: out of memory.
+Result<DecodedPicture> upright(DecodedPicture stored, int orientation) {
+  if (orientation == 1) return stored;
+  const Picture& from = stored.picture;
+  const int pixel_bytes = row_bytes(from.format, 1);
+  const Walk walk = upright_walk(from, pixel_bytes, orientation);
+  const bool is_transposed = orientation >= kFirstTransposed;
+  auto turned = make_picture(from.format, is_transposed ? from.height : from.width,
+                             is_transposed ? from.width : from.height);
+  if (!turned) return tl::unexpected(turned.error());
+  const MutablePicture& to = turned->pixels;
+  for (int y = 0; y < to.height; ++y) {
+    const std::byte* pixel = walk.first + y * walk.row;
+    std::byte* out = to.planes[0].data + y * to.planes[0].stride;
+    for (int x = 0; x < to.width; ++x, pixel += walk.column, out += pixel_bytes) {
+      std::memcpy(out, pixel, static_cast<std::size_t>(pixel_bytes));
+    }
+  }
+  turned->decoded.is_flawed = stored.is_flawed;
+  turned->decoded.is_turned = to.width != from.width;
+  return std::move(turned->decoded);
+}
+
+Result<DecodedPicture> decode_png(std::span<const std::byte> file) {
+  PngDecoder decoder;
+  const auto header = decoder.open(file);
+  if (!header) return tl::unexpected(header.error());
+  auto made = make_picture(header->format, header->width, header->height);
+  if (!made) return tl::unexpected(made.error());
+  if (auto done = decoder.decode(made->pixels); !done) return tl::unexpected(done.error());
+  return upright(std::move(made->decoded), tiff_orientation(decoder.exif()));
+}
+
+Result<DecodedPicture> decode_jpeg(std::span<const std::byte> file) {
   JpegDecoder decoder;
   const auto size = decoder.read_size(file);
   if (!size) return tl::unexpected(size.error());
-  CheckedFile checked{static_cast<std::uint32_t>(size->width),
-                      static_cast<std::uint32_t>(size->height)};
-  if (checked.side() > kMaxSide) return checked;
-  if (auto whole = decoder.check(file); !whole) return tl::unexpected(whole.error());
-  checked.is_flawed = decoder.is_flawed();
-  checked.jpeg_bytes = decoder.picture_bytes();
-  return checked;
+  auto made =
+      make_picture(size->is_grey ? PixelFormat::Grey : PixelFormat::Rgb, size->width, size->height);
+  if (!made) return tl::unexpected(made.error());
+  const auto done = decoder.decode_packed(file, made->pixels.samples<std::uint8_t>());
+  if (!done) return tl::unexpected(done.error());
+  made->decoded.is_flawed = decoder.is_flawed();
+  return upright(std::move(made->decoded), exif_orientation(file));
 }
 
-Result<DecodedPicture> to_picture(const cv::Mat& image) {
-  DecodedPicture decoded;
-  Picture& picture = decoded.picture;
-  constexpr std::array kFormats{
-      std::pair{CV_8UC1, PixelFormat::Grey}, std::pair{CV_16UC1, PixelFormat::Y16},
-      std::pair{CV_8UC3, PixelFormat::Rgb}, std::pair{CV_16UC3, PixelFormat::Rgb16}};
-  const auto* const known =
-      std::ranges::find(kFormats, image.type(), &std::pair<int, PixelFormat>::first);
-  if (known == kFormats.end()) {
-    return fail("has pixels of type " + cv::typeToString(image.type()) +
-                "; 1 or 3 channels of 8 or 16 bit are read");
+Result<DecodedPicture> decode(std::span<const std::byte> file) {
+  if (is_png(file)) return decode_png(file);
+  constexpr std::array kJpegStart{std::byte{0xff}, std::byte{0xd8}, std::byte{0xff}};
+  if (file.size() >= kJpegStart.size() &&
+      std::equal(kJpegStart.begin(), kJpegStart.end(), file.begin())) {
+    return decode_jpeg(file);
   }
-  picture.format = known->second;
-  picture.colour_space.range = ColourRange::Full;
-  picture.width = image.cols;
-  picture.height = image.rows;
-  const auto stride = static_cast<std::size_t>(row_bytes(picture.format, picture.width));
-  decoded.storage = std::make_unique_for_overwrite<std::byte[]>(
-      stride * static_cast<std::size_t>(picture.height));
-  picture.planes[0] = {decoded.storage.get(), static_cast<std::ptrdiff_t>(stride)};
-  cv::Mat pixels(image.size(), image.type(), decoded.storage.get(), stride);
-  if (image.channels() == 3) {
-    cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
-  } else {
-    image.copyTo(pixels);
-  }
-  return decoded;
-}
-
-/// Turns the picture upright by its EXIF orientation.
-cv::Mat upright(const cv::Mat& image, int orientation) {
-  constexpr int kFirstTransposed = 5;
-  cv::Mat turned = image;
-  if (orientation >= kFirstTransposed) cv::transpose(image, turned);
-  constexpr int kUpsideDown = 0, kMirrored = 1, kBoth = -1;
-  switch (orientation) {
-    case 2:
-    case 6:
-      cv::flip(turned, turned, kMirrored);
-      break;
-    case 3:
-    case 7:
-      cv::flip(turned, turned, kBoth);
-      break;
-    case 4:
-    case 8:
-      cv::flip(turned, turned, kUpsideDown);
-      break;
-    default:
-      break;
-  }
-  return turned;
-}
-
-/// OpenCV reads EXIF from the first APP1 segment only, so a JPEG picture is turned here.
-cv::Mat decode_upright(std::span<const std::byte> file) {
-  const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8UC1,
-                      const_cast<std::byte*>(file.data()));
-  constexpr int kAsItIs = cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH;
-  if (is_png(file)) return cv::imdecode(bytes, kAsItIs);
-  return upright(cv::imdecode(bytes, kAsItIs | cv::IMREAD_IGNORE_ORIENTATION),
-                 exif_orientation(file));
-}
-
-/// The picture's own data and an end marker, which OpenCV needs.
-std::vector<std::byte> with_end_marker(std::span<const std::byte> jpeg) {
-  std::vector<std::byte> ended(jpeg.begin(), jpeg.end());
-  ended.insert(ended.end(), {std::byte{0xff}, std::byte{0xd9}});
-  return ended;
-}
-
-Result<DecodedPicture> decode_checked(std::span<const std::byte> file) {
-  try {
-    const cv::Mat image = decode_upright(file);
-    if (image.empty()) return fail("damaged picture: cannot be decoded");
-    return to_picture(image);
-  } catch (const cv::Exception& error) {
-    return fail("cannot be decoded: " + error.err);
-  } catch (const std::bad_alloc&) {
-    return fail("cannot be decoded: out of memory");
-  }
+  return fail("is neither a JPEG nor a PNG picture");
 }
 
 }  // namespace
@@ -158,18 +147,8 @@ Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::stri
     return fail(std::string(name) + ": " + message);
   };
   if (file.size() > kMaxFileBytes) return named("is larger than 1 GiB");
-  const auto checked = check_file(file);
-  if (!checked) return named(checked.error().message);
-  if (checked->side() > kMaxSide) {
-    return named("is " + std::to_string(checked->side()) + " pixels long or wide; at most " +
-                 std::to_string(kMaxSide) + " are read");
-  }
-  auto decoded = checked->is_flawed
-                     ? decode_checked(with_end_marker(file.first(checked->jpeg_bytes)))
-                     : decode_checked(file);
+  auto decoded = decode(file);
   if (!decoded) return named(decoded.error().message);
-  decoded->is_flawed = checked->is_flawed;
-  decoded->is_turned = static_cast<std::uint32_t>(decoded->picture.width) != checked->width;
   return decoded;
 }
 

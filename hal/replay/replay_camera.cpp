@@ -6,8 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "hal/module/load_module.h"
+#include "hal/module/module_list.h"
 #include "hal/replay/picture_folder.h"
-#include "hal/replay/video_file.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -37,7 +38,11 @@ Result<std::unique_ptr<Recording>> open_recording(const std::filesystem::path& s
   if (std::filesystem::is_directory(status) || has_picture_name(source)) {
     return PictureFolder::open(source, loop);
   }
-  if (std::filesystem::is_regular_file(status)) return VideoFile::open(source, loop);
+  if (std::filesystem::is_regular_file(status)) {
+    return module_of(kVideoModule).and_then([&](const CameraModule* module) {
+      return module->open_recording(source, loop);
+    });
+  }
   return fail(source.string() + ": is neither a folder of pictures nor a video file");
 }
 

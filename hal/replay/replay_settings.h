@@ -41,7 +41,8 @@ struct ReplaySettings {
 template <class Visitor>
 void visit(Visitor& v, ReplaySettings& settings) {
   v.required("source", settings.source,
-             "Folder of numbered JPEG or PNG pictures, one picture, or a video");
+             "Folder of numbered JPEG or PNG pictures, one picture, or a video, which needs the "
+             "package orbwatch-camera-video");
   v.optional("loop", settings.loop, "Restart from the first picture after the last one");
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "hal/jpeg/jpeg_decoder.h"
+#include "hal/png/png_decoder.h"
 #include "hal/replay/picture_decoder.h"
-#include "hal/replay/png_check.h"
 #include "tests/fuzz/fenced_picture.h"
 #include "tests/fuzz/stop.h"
 
@@ -39,7 +39,7 @@ void decode_as_frame(const Bytes& jpeg) {
   const bool flawed = decoder.is_flawed();
   FencedPicture grey(PixelFormat::Grey, size->width, size->height, 1);
   grey.forbid_padding();
-  const Result<> decoded = decoder.decode_grey(jpeg, grey.picture.samples<std::uint8_t>());
+  const Result<> decoded = decoder.decode_packed(jpeg, grey.picture.samples<std::uint8_t>());
   require(decoded.has_value() == checked.has_value(), "check and luminance disagree");
   require(!decoded || decoder.is_flawed() == flawed, "flawed once and not twice");
   if (!has_pairs(*size)) return;
@@ -71,8 +71,9 @@ Bytes with_right_checksums(Bytes png) {
 }
 
 bool is_small_png(const Bytes& file) {
-  const auto size = hal::check_png(file);
-  return size && std::max(size->width, size->height) <= kLongestSide;
+  hal::PngDecoder decoder;
+  const auto header = decoder.open(file);
+  return header && std::max(header->width, header->height) <= kLongestSide;
 }
 
 void replay(const Bytes& file) {

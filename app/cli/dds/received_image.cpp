@@ -2,50 +2,33 @@
 #include "app/cli/dds/received_image.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "app/pictures/png_encoder.h"
 #include "hal/atomic_file.h"
-#include "hal/jpeg/jpeg_decoder.h"
+#include "hal/replay/picture_decoder.h"
 
 namespace orbwatch::app::cli {
 namespace {
 
-void swap_bytes(cv::Mat& words) {
-  for (int y = 0; y < words.rows; ++y) {
-    auto* row = words.ptr<std::uint16_t>(y);
-    std::transform(row, row + words.cols, row, [](std::uint16_t word) {
-      return static_cast<std::uint16_t>(word << 8 | word >> 8);
-    });
+/// Copies the rows with the two bytes of each sample exchanged; `picture` has 16 bit.
+std::vector<std::byte> swapped(const Picture& picture) {
+  const std::ptrdiff_t bytes = row_bytes(picture.format, picture.width);
+  std::vector<std::byte> words(static_cast<std::size_t>(bytes * picture.height));
+  for (int y = 0; y < picture.height; ++y) {
+    const std::byte* const row = picture.planes[0].data + y * picture.planes[0].stride;
+    for (std::ptrdiff_t i = 0; i < bytes; ++i) {
+      words[static_cast<std::size_t>(y * bytes + i)] = row[i ^ 1];
+    }
   }
+  return words;
 }
 
-/// The image in OpenCV's layout: blue first, the host's byte order.
-cv::Mat to_mat(const ReceivedImage& image) {
-  const int type = CV_MAKETYPE(image.encoding.bytes_per_sample == 2 ? CV_16U : CV_8U,
-                               static_cast<int>(image.encoding.channels));
-  const cv::Mat received(static_cast<int>(image.height), static_cast<int>(image.width), type,
-                         const_cast<std::uint8_t*>(image.data), image.step);
-  cv::Mat result;
-  if (image.encoding.name == dds::kRgb8.name) {
-    cv::cvtColor(received, result, cv::COLOR_RGB2BGR);
-  } else {
-    received.copyTo(result);
-  }
-  if (image.swapped) swap_bytes(result);
-  return result;
-}
-
-/// Saves the image that `make_image` returns; it may throw OpenCV's exceptions.
-template <class MakeImage>
-Result<> save(MakeImage make_image, const std::filesystem::path& path) try {
-  std::vector<std::uint8_t> png;
-  if (!cv::imencode(".png", make_image(), png)) return fail("image: cannot be encoded as PNG");
-  return hal::write_file(path, png);
-} catch (const cv::Exception& error) {
-  return fail("image: cannot be encoded as PNG: " + error.err);
+Result<> save(const Picture& picture, const std::filesystem::path& path) {
+  const auto png = encode_png(picture);
+  if (!png) return fail("image: cannot be encoded as PNG: " + png.error().message);
+  return hal::write_file(path, *png);
 }
 
 }  // namespace
@@ -91,16 +74,21 @@ Result<> check_image_size(std::uint32_t width, std::uint32_t height) {
 }
 
 Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path) {
-  return save([&image] { return to_mat(image); }, path);
+  const auto width = static_cast<int>(image.width), height = static_cast<int>(image.height);
+  const PixelFormat format = image.encoding.format;
+  const auto picture =
+      Picture::contiguous(format, width, height, reinterpret_cast<const std::byte*>(image.data),
+                          static_cast<std::ptrdiff_t>(image.step));
+  if (!image.swapped) return save(picture, path);
+  const std::vector<std::byte> words = swapped(picture);
+  return save(Picture::contiguous(format, width, height, words.data(), row_bytes(format, width)),
+              path);
 }
 
 Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path) {
-  // OpenCV decodes damaged pictures without an error.
-  hal::JpegDecoder strict;
-  if (const auto checked = strict.check(std::as_bytes(jpeg)); !checked) return checked;
-  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1,
-                      const_cast<std::uint8_t*>(jpeg.data()));
-  return save([&bytes] { return cv::imdecode(bytes, cv::IMREAD_UNCHANGED); }, path);
+  const auto decoded = hal::decode_picture(std::as_bytes(jpeg), "image");
+  if (!decoded) return tl::unexpected(decoded.error());
+  return save(decoded->picture, path);
 }
 
 }  // namespace orbwatch::app::cli

@@ -19,6 +19,7 @@
 #include "app/state/state_folder.h"
 #include "hal/lines/gpio/gpio_lines.h"
 #include "hal/module/load_module.h"
+#include "hal/module/module_list.h"
 
 namespace orbwatch::app::cli::doctor {
 namespace {
@@ -138,6 +139,9 @@ Sources this_computer() {
   sources.module_cameras = [](std::string_view back_end) {
     return hal::module_of(back_end).map(
         [](const hal::CameraModule* module) { return module->list_cameras(); });
+  };
+  sources.video_module = [] {
+    return hal::module_of(hal::kVideoModule).map([](const hal::CameraModule*) {});
   };
   return sources;
 }

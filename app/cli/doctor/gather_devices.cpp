@@ -9,6 +9,8 @@
 #include "app/cli/doctor/gather.h"
 #include "app/health/system_file.h"
 #include "hal/lines/find_line.h"
+#include "hal/module/module_list.h"
+#include "hal/replay/picture_decoder.h"
 #include "hal/thread/file_descriptor.h"
 #include "hal/v4l2/device/v4l2_list.h"
 
@@ -56,6 +58,8 @@ class Search {
 
   CameraFacts missing(const std::string& address, std::string error,
                       const std::vector<hal::CameraEntry>& there) const;
+  CameraFacts no_module(std::string_view module, const std::string& address,
+                        std::string error) const;
   CameraFacts in_files(const std::string& address) const;
   CameraFacts in_kernel(const std::string& address) const;
   CameraFacts in_module(std::string_view back_end, const std::string& address,
@@ -72,8 +76,20 @@ CameraFacts Search::missing(const std::string& address, std::string error,
   return facts;
 }
 
+CameraFacts Search::no_module(std::string_view module, const std::string& address,
+                              std::string error) const {
+  CameraFacts facts{name_, address, Presence::NoModule, std::move(error)};
+  facts.module = module;
+  return facts;
+}
+
 CameraFacts Search::in_files(const std::string& address) const {
   std::error_code unknown;
+  if (fs::is_regular_file(address, unknown) && !hal::has_picture_name(address)) {
+    if (const auto loaded = sources_.video_module(); !loaded) {
+      return no_module(hal::kVideoModule, address, loaded.error().message);
+    }
+  }
   const bool there = fs::exists(address, unknown);
   return {name_, address, there ? Presence::There : Presence::Missing,
           there ? "" : "there is no such file"};
@@ -95,11 +111,7 @@ CameraFacts Search::in_kernel(const std::string& address) const {
 CameraFacts Search::in_module(std::string_view back_end, const std::string& address,
                               const Accepts& accepts) const {
   const auto cameras = sources_.module_cameras(back_end);
-  if (!cameras) {
-    CameraFacts facts{name_, address, Presence::NoModule, cameras.error().message};
-    facts.module = back_end;
-    return facts;
-  }
+  if (!cameras) return no_module(back_end, address, cameras.error().message);
   const auto whole = std::ranges::count(*cameras, address, &hal::CameraEntry::id);
   const auto fitting = std::ranges::count_if(*cameras, accepts);
   if (whole == 1 || fitting == 1) return {name_, address, Presence::There};

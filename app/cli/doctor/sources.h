@@ -23,6 +23,8 @@ struct Sources {
   std::function<std::vector<hal::ChipInfo>()> chips;
   /// Cameras of a back-end that is a module. Error: the module cannot be used.
   std::function<Result<std::vector<hal::CameraEntry>>(std::string_view back_end)> module_cameras;
+  /// Error: the module of videos cannot be loaded.
+  std::function<Result<>()> video_module;
 
   /// Resolves an absolute path of the examined system.
   std::filesystem::path at(const std::filesystem::path& path) const {

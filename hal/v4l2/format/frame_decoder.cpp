@@ -104,7 +104,7 @@ Result<> FrameDecoder::decode_into(const MutablePicture& target,
 Result<> FrameDecoder::decode_jpeg(const MutablePicture& target,
                                    std::span<const std::byte> samples) {
   if (target.format == PixelFormat::Nv12) return jpeg_.decode_nv12(samples, target);
-  return jpeg_.decode_grey(samples, target.samples<std::uint8_t>());
+  return jpeg_.decode_packed(samples, target.samples<std::uint8_t>());
 }
 
 Result<> FrameDecoder::decode_mosaic(const MutablePicture& target, const std::byte* rows) {

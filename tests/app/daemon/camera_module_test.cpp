@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -80,6 +81,22 @@ TEST_F(WithoutModules, TheProgramsNameTheModuleAndDoNotNeedItsLibrary) {
     const std::string bytes(std::istreambuf_iterator<char>(file), {});
     EXPECT_THAT(bytes.size(), testing::Gt(100000U));
     EXPECT_EQ(bytes.find("libcamera.so."), std::string::npos) << program;
+  }
+}
+
+/// The loader's work is most of a command's time, and its pages are resident in the daemon.
+TEST_F(WithoutModules, TheProgramsLoadFewLibrariesAndNoneForPictureFilesOrVideos) {
+  constexpr int kMost = 90;
+  for (const char* program : {ORBWATCH_PROGRAM, ORBWATCHD_PROGRAM}) {
+    Subprocess list({"/usr/bin/ldd", program}, folder / "libraries.log");
+    ASSERT_EQ(list.wait(), 0) << list.output();
+    const std::string libraries = list.output();
+    EXPECT_THAT(libraries, HasSubstr("libopencv_core.so"));
+    for (const char* unused :
+         {"libopencv_videoio", "libopencv_imgcodecs", "libgdal", "libavcodec"}) {
+      EXPECT_THAT(libraries, testing::Not(HasSubstr(unused))) << program;
+    }
+    EXPECT_LE(std::ranges::count(libraries, '\n'), kMost) << program << "\n" << libraries;
   }
 }
 

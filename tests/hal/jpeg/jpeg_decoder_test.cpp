@@ -81,21 +81,50 @@ TEST(JpegDecoder, DecodesAWholePicture) {
   EXPECT_EQ(size->height, kGradientHeight);
   EXPECT_TRUE(decoder.check(jpeg));
   GreyTarget target;
-  const auto done = decoder.decode_grey(jpeg, target.view);
+  const auto done = decoder.decode_packed(jpeg, target.view);
   ASSERT_TRUE(done) << done.error().message;
   for (std::size_t i = 0; i < kGradientPixels; ++i) {
     ASSERT_NEAR(target.pixels[i], luminance(i), 2) << "pixel " << i;
   }
 }
 
+TEST(JpegDecoder, DecodesColourAndKnowsGrey) {
+  std::vector<std::uint8_t> rgb;
+  for (std::size_t i = 0; i < kGradientPixels; ++i) {
+    rgb.insert(rgb.end(), {200, 100, 50});
+  }
+  const auto encoded = [&rgb](int sampling) {
+    unsigned char* jpeg = nullptr;
+    unsigned long size = 0;
+    const tjhandle encoder = tjInitCompress();
+    EXPECT_EQ(tjCompress2(encoder, rgb.data(), kGradientWidth, 0, kGradientHeight, TJPF_RGB, &jpeg,
+                          &size, sampling, 95, 0),
+              0);
+    const auto* const first = reinterpret_cast<const std::byte*>(jpeg);
+    const std::vector<std::byte> bytes(first, first + size);
+    tjFree(jpeg);
+    tjDestroy(encoder);
+    return bytes;
+  };
+  JpegDecoder decoder;
+  EXPECT_TRUE(decoder.read_size(encoded(TJSAMP_GRAY))->is_grey);
+  const auto colour = encoded(TJSAMP_420);
+  EXPECT_FALSE(decoder.read_size(colour)->is_grey);
+  std::vector<std::uint8_t> pixels(3 * kGradientPixels);
+  const auto done = decoder.decode_packed(
+      colour, {pixels.data(), kGradientWidth, kGradientHeight, 3, 3 * kGradientWidth});
+  ASSERT_TRUE(done) << done.error().message;
+  for (std::size_t i = 0; i < pixels.size(); ++i) ASSERT_NEAR(pixels[i], rgb[i], 3) << i;
+}
+
 TEST(JpegDecoder, HonoursTheStrideOfItsTarget) {
   JpegDecoder decoder;
   constexpr std::ptrdiff_t kStride = kGradientWidth + 11;
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kStride) * kGradientHeight, 0xee);
-  ASSERT_TRUE(decoder.decode_grey(gradient_jpeg(),
-                                  {pixels.data(), kGradientWidth, kGradientHeight, 1, kStride}));
+  ASSERT_TRUE(decoder.decode_packed(gradient_jpeg(),
+                                    {pixels.data(), kGradientWidth, kGradientHeight, 1, kStride}));
   GreyTarget packed;
-  ASSERT_TRUE(decoder.decode_grey(gradient_jpeg(), packed.view));
+  ASSERT_TRUE(decoder.decode_packed(gradient_jpeg(), packed.view));
   for (int y = 0; y < kGradientHeight; ++y) {
     const auto* row = pixels.data() + y * kStride;
     EXPECT_TRUE(std::equal(row, row + kGradientWidth, packed.view.row(y))) << "row " << y;
@@ -110,8 +139,8 @@ TEST(JpegDecoder, DecodesWithoutHuffmanTablesAsUsbCamerasSend) {
   ASSERT_LT(bare.size(), jpeg.size() - 400);
   GreyTarget with;
   GreyTarget without;
-  ASSERT_TRUE(decoder.decode_grey(jpeg, with.view));
-  const auto done = decoder.decode_grey(bare, without.view);
+  ASSERT_TRUE(decoder.decode_packed(jpeg, with.view));
+  const auto done = decoder.decode_packed(bare, without.view);
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_EQ(with.pixels, without.pixels);
 }
@@ -123,10 +152,10 @@ TEST(JpegDecoder, RefusesEveryTruncationOfItsData) {
     GreyTarget target;
     for (std::size_t length = 0; length < jpeg.size() - kMarkerBytes; ++length) {
       const std::span part(jpeg.data(), length);
-      ASSERT_FALSE(decoder.decode_grey(part, target.view)) << length << " of " << jpeg.size();
+      ASSERT_FALSE(decoder.decode_packed(part, target.view)) << length << " of " << jpeg.size();
       ASSERT_FALSE(decoder.check(part)) << length << " of " << jpeg.size();
     }
-    const auto done = decoder.decode_grey(jpeg, target.view);
+    const auto done = decoder.decode_packed(jpeg, target.view);
     EXPECT_TRUE(done) << "must recover from errors: " << done.error().message;
   }
 }
@@ -141,7 +170,7 @@ TEST(JpegDecoder, CheckAgreesWithDecodingOnDamagedData) {
     jpeg[at] ^= std::byte{0x55};
     const auto size = decoder.read_size(jpeg);
     if (!size || size->width != kGradientWidth || size->height != kGradientHeight) continue;
-    const bool decoded = decoder.decode_grey(jpeg, target.view).has_value();
+    const bool decoded = decoder.decode_packed(jpeg, target.view).has_value();
     EXPECT_EQ(decoder.check(jpeg).has_value(), decoded) << "byte " << at;
     refused += decoded ? 0 : 1;
   }
@@ -155,13 +184,13 @@ TEST(JpegDecoder, RefusesGarbage) {
   EXPECT_FALSE(decoder.read_size({}));
   EXPECT_FALSE(decoder.read_size(garbage));
   EXPECT_FALSE(decoder.check(garbage));
-  EXPECT_FALSE(decoder.decode_grey(garbage, target.view));
+  EXPECT_FALSE(decoder.decode_packed(garbage, target.view));
 }
 
 TEST(JpegDecoder, RefusesAnotherSizeAndNamesBoth) {
   JpegDecoder decoder;
   std::vector<std::uint8_t> small(30 * 20);
-  const auto done = decoder.decode_grey(gradient_jpeg(), {small.data(), 30, 20, 1, 30});
+  const auto done = decoder.decode_packed(gradient_jpeg(), {small.data(), 30, 20, 1, 30});
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("53x37"), std::string::npos) << done.error().message;
   EXPECT_NE(done.error().message.find("30x20"), std::string::npos) << done.error().message;

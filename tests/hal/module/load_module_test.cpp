@@ -58,7 +58,7 @@ TEST(LoadModule, UsesThisProgramsHal) {
 
 TEST(LoadModule, RefusesWhatDoesNotFitAndSaysWhatWould) {
   EXPECT_THAT(refusal("older_module"),
-              AllOf(HasSubstr("older_module.so: has module interface 0, this program 1"),
+              AllOf(HasSubstr("older_module.so: has module interface 0, this program 2"),
                     HasSubstr("install orbwatch-camera-libcamera of this program's version")));
   EXPECT_THAT(refusal("foreign_module"), HasSubstr("was built from other headers"));
   EXPECT_THAT(refusal("fitting_module", "genicam"),

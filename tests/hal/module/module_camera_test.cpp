@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "hal/libcamera/libcamera_settings.h"
 #include "hal/module/load_module.h"
@@ -47,7 +48,8 @@ TEST_F(ModuleCamera, IsAbsentWithoutTheModuleAndSaysWhatToInstall) {
                                HasSubstr(folder_.path().string())));
   EXPECT_THAT(list_module_cameras(), IsEmpty());
   EXPECT_THAT(module_versions(), testing::ElementsAre(Pair("libcamera", "not installed"),
-                                                      Pair("genicam", "not installed")));
+                                                      Pair("genicam", "not installed"),
+                                                      Pair("video", "not installed")));
 }
 
 TEST_F(ModuleCamera, IsTheModules) {
@@ -55,7 +57,13 @@ TEST_F(ModuleCamera, IsTheModules) {
   EXPECT_EQ(refusal(), "was configured");
   EXPECT_EQ(list_module_cameras().size(), 1U);
   EXPECT_THAT(module_versions(),
-              testing::ElementsAre(Pair("libcamera", "1.0"), Pair("genicam", "not installed")));
+              testing::ElementsAre(Pair("libcamera", "1.0"), Pair("genicam", "not installed"),
+                                   Pair("video", "not installed")));
+}
+
+TEST_F(ModuleCamera, VersionsDoNotLoadTheModuleOfVideos) {
+  std::ofstream(module_file("video")) << "not loadable";
+  EXPECT_THAT(module_versions(), testing::Contains(Pair("video", "installed")));
 }
 
 TEST_F(ModuleCamera, IsAbsentWithAModuleThatDoesNotFit) {
@@ -64,9 +72,10 @@ TEST_F(ModuleCamera, IsAbsentWithAModuleThatDoesNotFit) {
   const auto cameras = list_module_cameras();
   ASSERT_EQ(cameras.size(), 1U);
   EXPECT_THAT(cameras[0].problem, HasSubstr("has module interface 0"));
-  EXPECT_THAT(module_versions(),
-              testing::ElementsAre(Pair("libcamera", HasSubstr("has module interface 0")),
-                                   Pair("genicam", "not installed")));
+  EXPECT_THAT(
+      module_versions(),
+      testing::ElementsAre(Pair("libcamera", HasSubstr("has module interface 0")),
+                           Pair("genicam", "not installed"), Pair("video", "not installed")));
 }
 
 }  // namespace

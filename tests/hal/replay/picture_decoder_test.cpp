@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/hal/png/written_png.h"
 #include "tests/hal/replay/exif_pictures.h"
 #include "tests/hal/replay/picture_files.h"
 
@@ -147,6 +148,19 @@ TEST(PictureDecoder, ShowsEachExifOrientationUpright) {
     EXPECT_EQ(bright, expected[n]) << "orientation " << n;
     EXPECT_EQ(bottom > right, along_row) << "orientation " << n;
   }
+}
+
+TEST(PictureDecoder, TurnsAPngPictureByItsExif) {
+  constexpr char kTurnClockwise = 6;
+  constexpr std::size_t kBeforeTiff = 10;  // marker, length and name of a JPEG segment
+  const std::string tiff = exif(kTurnClockwise).substr(kBeforeTiff);
+  const tests::PngLayout layout{PNG_COLOR_TYPE_RGB, 8, 2, 1, false, tiff};
+  const auto decoded = decode_picture(tests::written_png(layout, {{1, 2, 3, 4, 5, 6}}), "turned");
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  ASSERT_EQ(decoded->picture.width, 1);
+  ASSERT_EQ(decoded->picture.height, 2);
+  EXPECT_EQ(std::memcmp(decoded->storage.get(), "\1\2\3\4\5\6", 6), 0);
+  EXPECT_TRUE(decoded->is_turned);
 }
 
 TEST(PictureDecoder, LeavesAPictureWithDamagedExifAsItLies) {

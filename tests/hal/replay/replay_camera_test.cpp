@@ -6,12 +6,13 @@
 
 #include <cmath>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/hal/replay/exif_pictures.h"
 #include "tests/hal/replay/picture_files.h"
-#include "tests/hal/replay/test_video.h"
+#include "tests/hal/video/test_video.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -115,7 +116,17 @@ TEST(ReplayCamera, PlaysEachPictureAtItsSequenceNumber) {
   EXPECT_TRUE(listener.faults().empty());
 }
 
+/// Folder in which modules are looked for while this lives.
+class Modules {
+ public:
+  explicit Modules(const std::filesystem::path& folder) {
+    ::setenv("ORBWATCH_MODULES", folder.c_str(), 1);
+  }
+  ~Modules() { ::unsetenv("ORBWATCH_MODULES"); }
+};
+
 TEST(ReplayCamera, UsesTheRateAskedForElseTheSettingsElseTheVideosOwn) {
+  const Modules modules(ORBWATCH_BUILT_MODULES);
   const TemporaryFolder folder;
   write_pictures(folder, 1);
   tests::write_video(folder / "recording.avi", 2);
@@ -226,6 +237,7 @@ TEST(ReplayCamera, ShowsScriptedFaults) {
 }
 
 TEST(ReplayCamera, PlaysAVideo) {
+  const Modules modules(ORBWATCH_BUILT_MODULES);
   const TemporaryFolder folder;
   tests::write_video(folder / "recording.avi", 8);
   ReplayCamera camera(settings_for(folder / "recording.avi"));
@@ -239,6 +251,29 @@ TEST(ReplayCamera, PlaysAVideo) {
   for (std::size_t i = 0; i < listener.frames().size(); ++i) {
     EXPECT_NEAR(listener.values()[i], tests::red_of(listener.frames()[i].sequence % 8), 6) << i;
   }
+}
+
+TEST(ReplayCamera, NeedsTheModuleForAVideoOnly) {
+  const TemporaryFolder folder;
+  const Modules none(folder.path());
+  tests::write_video(folder / "recording.avi", 1);
+  ReplayCamera video(settings_for(folder / "recording.avi"));
+  const auto refused = video.configure({});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("camera east: the camera needs the module video, which is not installed: "
+                        "apt install orbwatch-camera-video"));
+  write_pictures(folder, 1);
+  EXPECT_TRUE(ReplayCamera(settings_for(folder.path())).configure({}));
+}
+
+TEST(ReplayCamera, RefusesAFileThatIsNoVideo) {
+  const Modules modules(ORBWATCH_BUILT_MODULES);
+  const TemporaryFolder folder;
+  tests::write_file(folder / "recording.avi", std::vector<std::byte>(4000, std::byte{'x'}));
+  const auto refused = ReplayCamera(settings_for(folder / "recording.avi")).configure({});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("recording.avi: is not a video"));
 }
 
 TEST(ReplayCamera, LosesFramesWhenAllAreHeldAndComesBack) {

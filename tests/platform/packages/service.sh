@@ -179,12 +179,15 @@ test_others() {
   local before
   before=$(property InvocationID orbwatch@second.service)
   check "the module for libcamera is missed" inside sh -c 'orbwatch --version | grep -x "libcamera not installed"'
+  check "and that for videos" inside sh -c 'orbwatch --version | grep -x "video not installed"'
   check "the other packages" inside sh -c 'apt-get install -y /packages/*.deb'
   check "the service runs on" wait_for "$patience" measures
   check "the second machine was restarted, too" wait_for "$patience" invoked_again "$before"
   end_second_machine
   check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera v?[0-9]"'
   check "and that for GenICam" inside sh -c 'orbwatch --version | grep -E "^genicam 0\.8\."'
+  check "and that for videos, with its libraries" inside sh -c \
+    'orbwatch --version | grep -x "video installed" && ! ldd /usr/lib/*/orbwatch/modules/camera-video.so | grep "not found"'
   check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
     -a -e /usr/share/orbwatch-msgs/modbus/registers.csv
 }

@@ -46,6 +46,7 @@ class Gather : public testing::Test {
     sources.architecture = "aarch64";
     sources.chips = [] { return std::vector<hal::ChipInfo>{}; };
     sources.module_cameras = [this](std::string_view) { return module_cameras; };
+    sources.video_module = [this] { return video_module; };
     tree.write("proc/device-tree/model", std::string("Raspberry Pi 5 Model B Rev 1.0\0", 31));
     tree.write("proc/sys/kernel/osrelease", "6.12.25+rpt-rpi-2712\n");
     tree.write("proc/sys/kernel/sched_rt_runtime_us", "950000\n");
@@ -91,6 +92,7 @@ class Gather : public testing::Test {
   MadeUpTree tree;
   Sources sources;
   Result<std::vector<hal::CameraEntry>> module_cameras;
+  Result<> video_module;
 };
 
 TEST_F(Gather, BoardAndKernel) {
@@ -178,6 +180,21 @@ TEST_F(Gather, ModuleCameras) {
   EXPECT_THAT(with_libcamera("imx2").cameras.at(0).error, HasSubstr("several"));
   module_cameras->front().problem = "libcamera cannot start";
   EXPECT_THAT(with_libcamera("imx708").cameras.at(0).error, HasSubstr("cannot start"));
+}
+
+TEST_F(Gather, AVideoNeedsItsModule) {
+  tree.write("run.mp4", "");
+  tree.write("still.png", "");
+  const auto camera = [this](const std::string& file) {
+    return of("back_end = \"replay\"\n[camera.replay]\nsource = \"" + (tree / file).string() +
+              "\"\n")
+        .cameras.at(0);
+  };
+  EXPECT_EQ(camera("run.mp4").presence, Presence::There);
+  video_module = fail("not installed");
+  EXPECT_EQ(camera("run.mp4").presence, Presence::NoModule);
+  EXPECT_EQ(camera("run.mp4").module, "video");
+  EXPECT_EQ(camera("still.png").presence, Presence::There);
 }
 
 TEST_F(Gather, GenicamCamerasByAnyOfTheirNames) {

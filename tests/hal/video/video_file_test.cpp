@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal/replay/video_file.h"
+#include "hal/video/video_file.h"
 
 #include <gtest/gtest.h>
 
 #include "hal/frame/frame_pool.h"
 #include "tests/hal/replay/picture_files.h"
-#include "tests/hal/replay/test_video.h"
+#include "tests/hal/video/test_video.h"
 
 namespace orbwatch::hal {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal/replay/video_file.h"
+#include "hal/video/video_file.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
