@@ -16,7 +16,9 @@ namespace orbwatch::hal {
 /// Buffers of a camera that fills its own memory (simulation, replay, decoded pictures).
 using FramePool = BufferPool<FrameBuffer>;
 
-/// A pool of `count` buffers of `width` x `height` in `format`, rows without padding.
+/// A pool of `count` buffers of `width` x `height` in `format`, rows without padding. Pixels are
+/// uninitialised: memory becomes resident with the first frame in a buffer, and most are never
+/// lent.
 inline FramePool make_frame_pool(PixelFormat format, int width, int height,
                                  std::size_t count = kFreeRunningBuffers) {
   std::vector<std::unique_ptr<FrameBuffer>> buffers;
@@ -24,7 +26,7 @@ inline FramePool make_frame_pool(PixelFormat format, int width, int height,
     auto buffer = std::make_unique<FrameBuffer>();
     const int stride = row_bytes(format, width);
     buffer->capacity = picture_bytes(format, static_cast<std::size_t>(stride), height);
-    buffer->storage = std::make_unique<std::byte[]>(buffer->capacity);
+    buffer->storage = std::make_unique_for_overwrite<std::byte[]>(buffer->capacity);
     buffer->memory = buffer->storage.get();
     buffer->picture = Picture::contiguous(format, width, height, buffer->memory, stride);
     buffers.push_back(std::move(buffer));

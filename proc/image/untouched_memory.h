@@ -40,4 +40,10 @@ struct UntouchedAllocator : std::allocator<T> {
 template <class T>
 using UntouchedVector = std::vector<T, UntouchedAllocator<T>>;
 
+/// Makes room for `size` elements, which lose their values if there was less.
+template <class T>
+void make_room(UntouchedVector<T>& elements, std::size_t size) {
+  if (elements.size() < size) elements = UntouchedVector<T>(size);
+}
+
 }  // namespace orbwatch

@@ -103,11 +103,11 @@ Result<RegionMeter::Parts> RegionMeter::make_parts(const optics::ViewProjection&
 }
 
 Result<RegionMeter> RegionMeter::make(const optics::ViewProjection& view, const RegionScene& scene,
-                                      const RegionSettings& settings,
-                                      const RegionMask::Sees& sees) {
+                                      const RegionSettings& settings, const RegionMask::Sees& sees,
+                                      std::shared_ptr<SearchMemory> memory) {
   auto parts = make_parts(view, scene, settings, sees);
   if (!parts) return tl::unexpected(parts.error());
-  return RegionMeter(view, scene, settings, std::move(*parts));
+  return RegionMeter(view, scene, settings, std::move(*parts), std::move(memory));
 }
 
 Result<> RegionMeter::check(const optics::ViewProjection& view, const RegionScene& scene,
@@ -116,14 +116,15 @@ Result<> RegionMeter::check(const optics::ViewProjection& view, const RegionScen
 }
 
 RegionMeter::RegionMeter(const optics::ViewProjection& view, const RegionScene& scene,
-                         const RegionSettings& settings, Parts parts)
+                         const RegionSettings& settings, Parts parts,
+                         std::shared_ptr<SearchMemory> memory)
     : settings_(settings),
       ball_centre_(scene.ball.centre),
       knows_surface_(!scene.proxy.is_far()),
       mask_(std::move(parts.mask)),
       radiometry_(std::move(parts.radiometry)),
       geometry_(view, scene, mask_),
-      search_(mask_, settings),
+      search_(mask_, settings, std::move(memory)),
       hot_pixels_(mask_),
       track_(settings.hot_spot_limits),
       plume_pixels_(mask_),

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,12 +30,13 @@ namespace orbwatch::signals {
 /// trigonometry only for the hot spot's angles, once per frame set. Movable. Thread-bound.
 class RegionMeter {
  public:
-  /// `sees`: see RegionMask. Error: an outline that is not a polygon or outside of the view,
-  /// thresholds out of range or in the wrong order, limits of the hot spot out of range or without
-  /// the surface that they are on, radiometry out of range.
-  static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
-                                  const RegionSettings& settings,
-                                  const RegionMask::Sees& sees = nullptr);
+  /// `sees`: see RegionMask; `memory`: see BlobSearch. Error: an outline that is not a polygon or
+  /// outside of the view, thresholds out of range or in the wrong order, limits of the hot spot out
+  /// of range or without the surface that they are on, radiometry out of range.
+  static Result<RegionMeter> make(
+      const optics::ViewProjection& view, const RegionScene& scene, const RegionSettings& settings,
+      const RegionMask::Sees& sees = nullptr,
+      std::shared_ptr<SearchMemory> memory = std::make_shared<SearchMemory>());
   /// The errors of make() without the memory that measuring needs.
   static Result<> check(const optics::ViewProjection& view, const RegionScene& scene,
                         const RegionSettings& settings, const RegionMask::Sees& sees = nullptr);
@@ -71,7 +73,7 @@ class RegionMeter {
   static Result<Parts> make_parts(const optics::ViewProjection& view, const RegionScene& scene,
                                   const RegionSettings& settings, const RegionMask::Sees& sees);
   RegionMeter(const optics::ViewProjection& view, const RegionScene& scene,
-              const RegionSettings& settings, Parts parts);
+              const RegionSettings& settings, Parts parts, std::shared_ptr<SearchMemory> memory);
 
   template <class T>
   Signals measure_any(const ImageView<const T>& values,

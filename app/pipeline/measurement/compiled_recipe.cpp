@@ -27,17 +27,20 @@ bool is_of_trigger(const hal::FrameSet& set, const hal::Frame& frame) {
   return !set.trigger || !trigger || *trigger == *set.trigger;
 }
 
-/// Calls RegionMeter::make or RegionMeter::check for a region.
-template <class T>
+/// Calls RegionMeter::make or RegionMeter::check for a region: `call` with the arguments that both
+/// have, and `further` ones.
+template <class T, class... Further>
 Result<T> for_region(const RecipePlan& plan, const RegionPlan& region,
                      const signals::RegionScene& scene,
                      Result<T> (*call)(const optics::ViewProjection&, const signals::RegionScene&,
                                        const signals::RegionSettings&,
-                                       const signals::RegionMask::Sees&)) {
+                                       const signals::RegionMask::Sees&, Further...),
+                     const Further&... further) {
   const ViewPlan& view = plan.views[region.view];
   const ViewSource& measured = view.sources[*view.measured];
-  auto result = call(view.projection, scene, region.settings,
-                     [&measured](const auto& to) { return sees(measured, to); });
+  auto result = call(
+      view.projection, scene, region.settings,
+      [&measured](const auto& to) { return sees(measured, to); }, further...);
   if (!result) return fail("region " + region.name + ": " + result.error().message);
   return result;
 }
@@ -51,8 +54,10 @@ Result<signals::AlarmBoard> make_board(const RecipePlan& plan) {
 Result<std::unique_ptr<CompiledRecipe>> CompiledRecipe::make(RecipePlan plan,
                                                              const signals::RegionScene& scene) {
   std::unique_ptr<CompiledRecipe> recipe(new CompiledRecipe(std::move(plan)));
+  // Regions are measured one after another.
+  const auto memory = std::make_shared<signals::SearchMemory>();
   for (const RegionPlan& region : recipe->plan_.regions) {
-    auto meter = for_region(recipe->plan_, region, scene, signals::RegionMeter::make);
+    auto meter = for_region(recipe->plan_, region, scene, signals::RegionMeter::make, memory);
     if (!meter) return tl::unexpected(meter.error());
     const Quality quality = quality_of(meter->radiometry());
     recipe->meters_.push_back({std::move(*meter), region.view, quality});

@@ -2,6 +2,7 @@
 #include "proc/signals/hot_spot/blob_search.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace orbwatch::signals {
 namespace {
@@ -22,21 +23,23 @@ bool reaches(const Components& components, std::size_t component, const ImageVie
 
 }  // namespace
 
-BlobSearch::BlobSearch(const RegionMask& mask, const RegionSettings& settings)
+BlobSearch::BlobSearch(const RegionMask& mask, const RegionSettings& settings,
+                       std::shared_ptr<SearchMemory> memory)
     : hot_spot_threshold_(settings.hot_spot_threshold),
       spatter_threshold_(settings.spatter_threshold.value_or(hot_spot_threshold_)),
       lowest_threshold_(std::min({hot_spot_threshold_, spatter_threshold_,
                                   settings.plume_threshold.value_or(hot_spot_threshold_)})),
-      lowest_(mask),
-      around_(mask),
-      blobs_(mask) {
-  if (spatter_threshold_ > lowest_threshold_) sparks_.emplace(mask);
-  large_.reserve(mask.pixels() / kLarge);
+      memory_(std::move(memory)) {
+  memory_->lowest.reserve(mask);
+  memory_->around.reserve(mask);
+  memory_->blobs.reserve(mask);
+  if (spatter_threshold_ > lowest_threshold_) memory_->sparks.reserve(mask);
+  memory_->large.reserve(mask.pixels() / kLarge);
 }
 
 template <class T>
 void BlobSearch::begin(const Planes<T>& planes, const RegionMask& mask) {
-  lowest_.find(planes.values, planes.validity, lowest_threshold_, mask);
+  memory_->lowest.find(planes.values, planes.validity, lowest_threshold_, mask);
 }
 
 /// Searches the largest components first: they have at least the pixels of the blobs in them, so
@@ -45,29 +48,32 @@ template <class T>
 std::optional<Blob> BlobSearch::follow(const Planes<T>& planes, const RegionGeometry& geometry,
                                        double passed, HotSpotTrack& track) {
   track.begin(passed);
+  const Components& lowest = memory_->lowest;
+  std::vector<std::size_t>& large = memory_->large;
   const auto consider = [&](std::size_t component) {
-    if (!reaches(lowest_, component, planes.values, hot_spot_threshold_)) return;
-    blobs_.find(planes.values, planes.validity, hot_spot_threshold_, lowest_, component, geometry);
-    blobs_.for_each_blob([&](const Blob& blob) { track.consider(blob); });
+    if (!reaches(lowest, component, planes.values, hot_spot_threshold_)) return;
+    memory_->blobs.find(planes.values, planes.validity, hot_spot_threshold_, lowest, component,
+                        geometry);
+    memory_->blobs.for_each_blob([&](const Blob& blob) { track.consider(blob); });
   };
   const auto is_settled = [&](int pixels) {
     constexpr double kRounding = 1 + 1e-9;
     return track.is_settled(pixels * kRounding * geometry.largest_solid_angle(),
                             pixels * kRounding * geometry.largest_area());
   };
-  const auto pixels_of = [&](std::size_t component) { return lowest_.pixels(component); };
-  large_.clear();
-  const std::size_t runs = lowest_.runs().size();
+  const auto pixels_of = [&](std::size_t component) { return lowest.pixels(component); };
+  large.clear();
+  const std::size_t runs = lowest.runs().size();
   for (std::size_t i = 0; i < runs; ++i) {
-    if (pixels_of(i) >= kLarge) large_.push_back(i);
+    if (pixels_of(i) >= kLarge) large.push_back(i);
   }
-  std::ranges::make_heap(large_, {}, pixels_of);
-  while (!large_.empty() && !is_settled(pixels_of(large_.front()))) {
-    consider(large_.front());
-    std::ranges::pop_heap(large_, {}, pixels_of);
-    large_.pop_back();
+  std::ranges::make_heap(large, {}, pixels_of);
+  while (!large.empty() && !is_settled(pixels_of(large.front()))) {
+    consider(large.front());
+    std::ranges::pop_heap(large, {}, pixels_of);
+    large.pop_back();
   }
-  if (large_.empty() && !is_settled(kLarge - 1)) {
+  if (large.empty() && !is_settled(kLarge - 1)) {
     for (std::size_t i = 0; i < runs; ++i) {
       if (pixels_of(i) > 0 && pixels_of(i) < kLarge) consider(i);
     }
@@ -79,18 +85,23 @@ template <class T>
 void BlobSearch::assign(const Planes<T>& planes, double threshold, int x, int y,
                         BlobPixels& pixels) {
   pixels.clear();
-  const std::size_t component = lowest_.at(x, y);
+  const Components& lowest = memory_->lowest;
+  const std::size_t component = lowest.at(x, y);
   if (component == Components::kNone) return;
-  around_.find(planes.values, planes.validity, threshold, lowest_, component);
-  pixels.assign(around_, around_.at(x, y));
+  Components& around = memory_->around;
+  around.find(planes.values, planes.validity, threshold, lowest, component);
+  pixels.assign(around, around.at(x, y));
 }
 
 /// Measures the sparks that the tracker compares; the others are only counted.
 template <class T>
 void BlobSearch::add_sparks(const Planes<T>& planes, const RegionGeometry& geometry,
                             const BlobPixels& hot_spot, int x, int y, SpatterTracker& tracker) {
-  if (sparks_) sparks_->find(planes.values, planes.validity, spatter_threshold_, lowest_);
-  const Components& sparks = sparks_ ? *sparks_ : lowest_;
+  const bool is_lowest = spatter_threshold_ <= lowest_threshold_;
+  if (!is_lowest) {
+    memory_->sparks.find(planes.values, planes.validity, spatter_threshold_, memory_->lowest);
+  }
+  const Components& sparks = is_lowest ? memory_->lowest : memory_->sparks;
   const std::size_t around = sparks.at(x, y);
   const auto is_spark = [&](std::size_t run) {
     const Span& first = sparks.runs()[run].span;
@@ -105,8 +116,8 @@ void BlobSearch::add_sparks(const Planes<T>& planes, const RegionGeometry& geome
   for (std::size_t i = 0; measured < std::min(others, kMaxSparkParts); ++i) {
     if (!is_spark(i)) continue;
     ++measured;
-    blobs_.find(planes.values, planes.validity, spatter_threshold_, sparks, i, geometry);
-    blobs_.for_each_blob([&](const Blob& blob) { tracker.add(blob.moment); });
+    memory_->blobs.find(planes.values, planes.validity, spatter_threshold_, sparks, i, geometry);
+    memory_->blobs.for_each_blob([&](const Blob& blob) { tracker.add(blob.moment); });
   }
   tracker.add_beyond(others - measured);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,12 +17,25 @@
 
 namespace orbwatch::signals {
 
+/// Memory of a BlobSearch for one region and frame set. Regions that are measured one after another
+/// share it. Thread-bound.
+struct SearchMemory {
+  Components lowest;
+  Components around;  ///< components around a pixel
+  Components sparks;  ///< empty if their threshold is the lowest one in every region
+  LevelSet blobs;
+  std::vector<std::size_t> large;  ///< components
+};
+
 /// Finds the blobs of a region at its thresholds: one pass over its pixels for the lowest
 /// threshold, then only where a blob at a higher one can matter. Work: linear in pixels, little for
 /// each blob that does not matter. Allocates only at construction. Thread-bound.
 class BlobSearch {
  public:
-  BlobSearch(const RegionMask& mask, const RegionSettings& settings);
+  /// `memory` grows to what the region needs; between begin() and the last call for a frame set
+  /// no other search may use it.
+  BlobSearch(const RegionMask& mask, const RegionSettings& settings,
+             std::shared_ptr<SearchMemory> memory = std::make_shared<SearchMemory>());
 
   /// The planes of the measured view.
   template <class T>
@@ -52,11 +67,7 @@ class BlobSearch {
   double hot_spot_threshold_;
   double spatter_threshold_;
   double lowest_threshold_;
-  Components lowest_;
-  Components around_;                 ///< components around a pixel
-  std::optional<Components> sparks_;  ///< set if their threshold is not the lowest one
-  LevelSet blobs_;
-  std::vector<std::size_t> large_;  ///< components
+  std::shared_ptr<SearchMemory> memory_;
 };
 
 }  // namespace orbwatch::signals

@@ -6,11 +6,13 @@
 
 namespace orbwatch::signals {
 
-Components::Components(const RegionMask& mask)
-    : runs_(mask.most_runs()),
-      next_(mask.most_runs()),
-      totals_(mask.most_runs()),
-      edges_(mask.right() - mask.left()) {}
+void Components::reserve(const RegionMask& mask) {
+  make_room(runs_, mask.most_runs());
+  make_room(next_, mask.most_runs());
+  make_room(totals_, mask.most_runs());
+  edges_.reserve(mask.right() - mask.left());
+  size_ = count_ = 0;
+}
 
 template <class T>
 void Components::find(const ImageView<const T>& values,

@@ -20,10 +20,14 @@ struct Run {
 };
 
 /// Connected components (8 neighbours) of a region's pixels at or above a threshold, with their
-/// number of pixels; LevelSet measures them. Allocates only at construction. Thread-bound.
+/// number of pixels; LevelSet measures them. Allocates only in reserve(). Thread-bound.
 class Components {
  public:
-  explicit Components(const RegionMask& mask);
+  Components() = default;
+  explicit Components(const RegionMask& mask) { reserve(mask); }
+
+  /// Makes room for any components of the region; those found before are lost.
+  void reserve(const RegionMask& mask);
 
   /// Finds components among the values that are Validity::Seen.
   template <class T>
@@ -88,7 +92,7 @@ class Components {
   /// For each run, the component's next one; the last one's is itself.
   UntouchedVector<std::uint32_t> next_;
   UntouchedVector<Total> totals_;  ///< for each run
-  EdgeFinder edges_;
+  EdgeFinder edges_{0};
   std::size_t size_ = 0;
   std::size_t count_ = 0;
 };

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "proc/image/image_view.h"
+#include "proc/image/untouched_memory.h"
 #include "proc/signals/hot_spot/blob_pixels.h"
 #include "proc/signals/radiometry.h"
 
@@ -44,8 +44,8 @@ class CoolingMeter {
   BlobPixels before_;
   int stride_;
   int height_;
-  std::vector<std::uint16_t> values_;
-  std::vector<std::uint8_t> validity_;
+  UntouchedVector<std::uint16_t> values_;  ///< set where before_ has pixels and beside them
+  UntouchedVector<std::uint8_t> validity_;
 };
 
 }  // namespace orbwatch::signals

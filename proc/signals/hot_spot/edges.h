@@ -23,11 +23,15 @@ std::optional<T> count_at_least(double threshold) {
 }
 
 /// Finds in a row the runs of pixels that are at or above a count and Validity::Seen. Allocates
-/// only at construction. Thread-bound.
+/// only in reserve(). Thread-bound.
 class EdgeFinder {
  public:
+  explicit EdgeFinder(int widest) { reserve(widest); }
+
   /// `widest`: most pixels of a span.
-  explicit EdgeFinder(int widest) : edges_(static_cast<std::size_t>(widest) + 1) {}
+  void reserve(int widest) {
+    edges_.resize(std::max(edges_.size(), static_cast<std::size_t>(widest) + 1));
+  }
 
   /// Calls visit(begin, end) for each run within `span`, from left to right. `values` and
   /// `validity`: the span's rows; values beyond the span are not read.

@@ -26,11 +26,15 @@ struct Blob {
 };
 
 /// Measures the blobs within a component of a lower threshold: sums cost more than finding, and
-/// where noise makes thousands of blobs only few of them matter. Allocates only at construction.
+/// where noise makes thousands of blobs only few of them matter. Allocates only in reserve().
 /// Thread-bound.
 class LevelSet {
  public:
-  explicit LevelSet(const RegionMask& mask) : components_(mask), blobs_(mask.most_runs()) {}
+  /// Makes room for any blobs of the region; those found before are lost.
+  void reserve(const RegionMask& mask) {
+    components_.reserve(mask);
+    make_room(blobs_, mask.most_runs());
+  }
 
   /// Finds blobs at or above `threshold`, counts; the other arguments are those of
   /// Components::find().

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <new>
 #include <string>
@@ -95,6 +96,7 @@ TEST(FramePath, DoesNotAllocate) {
       auto frame = (camera == 0 ? thermal : colour).acquire();
       frame->metadata.sequence = n;
       frame->metadata.exposure_start = hal::Clock::now();
+      std::memset(frame->memory, 0, frame->capacity);
       reinterpret_cast<std::uint16_t*>(frame->memory)[kSize * 60 + 60] = 50000;
       sync.put(camera, std::move(frame));
     }

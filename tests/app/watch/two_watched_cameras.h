@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstring>
 #include <optional>
 
 #include "app/watch/camera_watch.h"
@@ -33,6 +34,7 @@ class TwoWatchedCameras : public testing::Test {
 
   hal::Frame frame() {
     auto buffer = hal::make_frame_pool(PixelFormat::Grey, 800, 800, 1).acquire();
+    std::memset(buffer->memory, 0, buffer->capacity);
     buffer->metadata.exposure_start = stamp;
     return buffer;
   }

@@ -2,8 +2,11 @@
 #include "hal/frame/buffer_pool.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstring>
+#include <fstream>
 #include <thread>
 
 #include "hal/frame/frame_pool.h"
@@ -35,6 +38,22 @@ TEST(BufferPool, ALoanOutlivesThePool) {
     frame = buffer;
   }
   EXPECT_EQ(frame->picture.samples<std::uint8_t>().row(7)[7], 7);
+}
+
+std::size_t resident_bytes() {
+  std::size_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(BufferPool, BuffersBecomeResidentWhenTheyAreFilled) {
+  constexpr int kSide = 2048;
+  constexpr std::size_t kBytes = std::size_t{kSide} * kSide, kCount = 16;
+  const std::size_t before = resident_bytes();
+  FramePool pool = make_frame_pool(PixelFormat::Grey, kSide, kSide, kCount);
+  const auto buffer = pool.acquire();
+  std::memset(buffer->memory, 1, buffer->capacity);
+  EXPECT_LT(resident_bytes(), before + kCount / 2 * kBytes);
 }
 
 TEST(BufferPool, TellsWhichSlotBecameFree) {

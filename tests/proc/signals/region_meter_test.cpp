@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <numbers>
 #include <random>
+#include <utility>
 
+#include "proc/signals/signal_list.h"
 #include "tests/proc/signals/painted_region.h"
 
 namespace orbwatch::signals {
@@ -186,7 +189,8 @@ TEST(RegionMeter, FindsTheBlobsThatAFloodFillFinds) {
     Components lower(mask), upper(mask);
     lower.find(painted.plane(), painted.seen(), low, mask);
     upper.find(painted.plane(), painted.seen(), high - 0.5, lower);
-    LevelSet blobs(mask);
+    LevelSet blobs;
+    blobs.reserve(mask);
     for (const auto& [level, threshold] : {std::pair{&lower, low}, {&upper, high}}) {
       std::vector<bool> done(painted.values.size());
       std::vector<double> expected, found;
@@ -218,6 +222,43 @@ TEST(RegionMeter, FindsTheBlobsThatAFloodFillFinds) {
       for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i], expected[i], 1e-6);
     }
   }
+}
+
+TEST(RegionMeter, RegionsThatShareTheMemoryOfTheirSearchMeasureTheSame) {
+  PaintedView painted(kView);
+  std::vector<RegionSettings> regions(3, settings());
+  // The small region comes first, so the memory grows.
+  for (const auto& [x, y] : {std::pair(80, 60), {160, 60}, {160, 140}, {80, 140}}) {
+    regions[0].outline.push_back(*painted.view.direction(x, y));
+  }
+  regions[1].plume_threshold.reset();
+  regions[1].spatter_threshold = 1.5 * kHotSpotThreshold;
+  regions[2].hot_spot_threshold = 2 * kHotSpotThreshold;
+  const auto memory = std::make_shared<SearchMemory>();
+  std::vector<RegionMeter> together, alone;
+  for (const RegionSettings& region : regions) {
+    together.push_back(RegionMeter::make(painted.view, {}, region, nullptr, memory).value());
+    alone.push_back(meter_of(painted, region));
+  }
+  std::mt19937 random(5);
+  for (int frame = 0; frame < 20; ++frame) {
+    painted.clear();
+    painted.paint_hill(*painted.view.direction(60 + 5 * frame, 100), 0.05, 2.5 * kHotSpotThreshold);
+    for (int n = 0; n < 2000 * (frame % 3); ++n) {
+      painted.at(static_cast<int>(random() % 240), static_cast<int>(random() % 180)) =
+          static_cast<std::uint16_t>(random() % 60000);
+    }
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      const Signals shared = together[i].measure(painted.plane(), painted.seen(), frame / 30.0);
+      const Signals own = alone[i].measure(painted.plane(), painted.seen(), frame / 30.0);
+      for (const SignalInfo& signal : kSignals) {
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(shared.*signal.member),
+                  std::bit_cast<std::uint64_t>(own.*signal.member))
+            << signal.name << " of region " << i << " in frame " << frame;
+      }
+    }
+  }
+  EXPECT_GT(alone[1].untracked_sparks(), 0U);
 }
 
 TEST(RegionMeter, EightBitPicturesSaturate) {
