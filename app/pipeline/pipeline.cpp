@@ -124,7 +124,6 @@ void Pipeline::run() {
     } else {
       idle();
     }
-    publish_status();
     end_exchange();
   }
 }
@@ -171,54 +170,74 @@ void Pipeline::end_exchange() {
   exchanged_.notify_one();
 }
 
-/// Processes a frame set from commands to status. Measured views come first and with every set;
-/// display views slow down under overload.
+/// Processes a frame set. What is measured comes first, and goes out before the pictures that people
+/// look at are made; of these, measured views come with every set, display views slow down under
+/// overload.
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
   for (Sink* sink : sinks_) sink->accept_frames(set);
+  apply_commands(set);
+  stages_.end(Stage::Publication);  // includes the pictures of the previous set
 
-  // Commands take effect here, between two sets.
-  std::span<ViewChannel> measured;
-  if (measurement_) {
-    measurement_->apply_commands(set.stamp);
-    measured = measurement_->views();
-  }
+  measure(set);
+  begin_status(set);
+  publish_status();
+  stages_.end(Stage::Publication);
+
+  show(set);
+  end_set(hal::Clock::now() - begin);
+}
+
+/// Applies commands, which take effect here, between two sets.
+void Pipeline::apply_commands(const hal::FrameSet& set) {
+  if (measurement_) measurement_->apply_commands(set.stamp);
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     pan_tilt_zoom_.exchange(i, displays_[i].renderer());
   }
-  exchange_colours(measured);
+  exchange_colours(measured());
   exchange_colours(displays_);
-  ask_readers(measured, set.stamp);
-  stages_.end(Stage::Publication);  // includes the status of the previous set
-
-  // A camera's picture is halved and sharpened once for all views that sample it.
-  pyramids_.build(set, uses_of(measured), workers_);
-  match_exposures(set);
-  stages_.end(Stage::Halving, workers_.take_spent());
-  if (measurement_) {
-    measurement_->render(set, pyramids_, *buffers_, workers_);
-    stages_.end(Stage::Views, workers_.take_spent());
-    measurement_->measure(set);
-    stages_.end(Stage::Measurement);
-  }
-  for (ViewChannel& view : measured) publish(view);
-  display(set);
-  count(set, hal::Clock::now() - begin);
 }
 
-/// Renders the display views, unless they are not due, and publishes them.
-void Pipeline::display(const hal::FrameSet& set) {
+/// Measures in planes without a picture. A camera's picture is halved once for all that sample it.
+void Pipeline::measure(const hal::FrameSet& set) {
+  PictureUses uses;
+  for (const ViewChannel& view : measured()) view.add_measured_use(uses);
+  pyramids_.build(set, uses, workers_);
+  stages_.end(Stage::Halving, workers_.take_spent());
+  if (!measurement_) return;
+  measurement_->render(set, pyramids_, *buffers_, workers_);
+  stages_.end(Stage::Views, workers_.take_spent());
+  measurement_->measure(set);
+  stages_.end(Stage::Measurement);
+}
+
+/// Makes and publishes the pictures that are read.
+void Pipeline::show(const hal::FrameSet& set) {
   const bool is_due = budget_.is_display_due(set.id);
+  ask_readers(measured(), set.stamp);
+  PictureUses uses = uses_of(measured());
   if (is_due) {
     ask_readers(displays_, set.stamp);
-    pyramids_.extend(uses_of(displays_), workers_);
-    stages_.end(Stage::Halving, workers_.take_spent());
+    for (const ViewChannel& view : displays_) view.add_use(uses);
+  }
+  pyramids_.extend(uses, workers_);
+  match_exposures(set);
+  stages_.end(Stage::Halving, workers_.take_spent());
+  for (ViewChannel& view : measured()) {
+    view.draw(pyramids_, workers_);
+    stages_.end(Stage::Views, workers_.take_spent());
+    publish(view);
   }
   for (ViewChannel& view : displays_) {
     if (is_due) view.render(set, pyramids_, *buffers_, workers_);
     stages_.end(Stage::Views, workers_.take_spent());
     publish(view);
   }
+}
+
+/// Views of the recipe that is measured.
+std::span<ViewChannel> Pipeline::measured() {
+  return measurement_ ? measurement_->views() : std::span<ViewChannel>();
 }
 
 void Pipeline::match_exposures(const hal::FrameSet& set) {
@@ -244,9 +263,11 @@ void Pipeline::ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp) {
 
 /// Replaces process() when there is no set.
 void Pipeline::idle() {
-  if (!measurement_) return;
-  measurement_->apply_commands(hal::Clock::now());
-  measurement_->idle(cameras_.faulty() + cameras_.late() == cameras_.size());
+  if (measurement_) {
+    measurement_->apply_commands(hal::Clock::now());
+    measurement_->idle(cameras_.faulty() + cameras_.late() == cameras_.size());
+  }
+  publish_status();
 }
 
 /// Forwards the view that was rendered last; it counts as skipped if there is none, because it was
@@ -264,12 +285,15 @@ void Pipeline::publish(ViewChannel& channel) {
   stages_.end(Stage::Publication);
 }
 
-void Pipeline::count(const hal::FrameSet& set, hal::Clock::duration spent) {
+void Pipeline::begin_status(const hal::FrameSet& set) {
   status_.frame_set = set.id;
   status_.stamp = set.stamp;
   status_.trigger = set.trigger.value_or(0);
   status_.unmatched += set.matched ? 0 : 1;
   largest_skew_ = std::max(largest_skew_, set.skew);
+}
+
+void Pipeline::end_set(hal::Clock::duration spent) {
   std::chrono::nanoseconds sinks{0};
   for (const Sink* sink : sinks_) sinks += sink->cpu_time();
   stages_.end_set(cameras_.capture_time(), sinks);

@@ -31,9 +31,11 @@ class ReferenceMachine {
   bool run();
 
   /// Stretches between two readings of the pipeline thread's clock in Pipeline::process(), in their
-  /// order from on_set on; "rest": neither views nor their input.
+  /// order from on_set on. Status, registers and lines are out after the first five; "rest": neither
+  /// views nor their input.
   static constexpr std::string_view kStretches =
-      "rest halving measured_view measurement rest halving panorama rest jpeg_view rest";
+      "commands measured_halving measured_plane measurement status "
+      "halving measured_picture rest panorama rest jpeg_view rest";
 
  private:
   class Reader;

@@ -324,6 +324,7 @@ struct CameraStatus : CameraWatchStatus {
   ORBWATCH_LINK_FIGURES(ORBWATCH_FIELD_MEMBER)
 };
 
+/// The pictures of a frame set follow its status: these figures belong to the sets before.
 #define ORBWATCH_VIEW_FIGURES(FIELD)                                                           \
   FIELD(std::uint64_t, published, kCount, "Views published since start")                       \
   FIELD(std::uint64_t, skipped, kCount,                                                        \

@@ -98,11 +98,11 @@ void CompiledRecipe::begin() {
 void CompiledRecipe::render(const hal::FrameSet& set, const FramePyramids& pyramids,
                             ViewBuffers& buffers, WorkerPool& workers) {
   for (std::size_t n = 0; n < views_.size(); ++n) {
-    const View* view = views_[n].render(set, pyramids, buffers, workers);
+    const View& view = views_[n].measure(set, pyramids, buffers, workers);
     const ViewPlan& plan = plan_.views[n];
     const std::size_t camera = plan.sources[*plan.measured].camera;
     const bool is_measurable = is_of_trigger(set, set.frames[camera]);
-    frames_[n].view = is_measurable ? view : nullptr;
+    frames_[n].view = is_measurable ? &view : nullptr;
     if (is_measurable) {
       frames_[n].exposed = set.frames[camera]->metadata.exposure_start;
       frames_[n].controls_as_of = set.frames[camera]->metadata.controls_as_of;

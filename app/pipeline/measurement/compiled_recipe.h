@@ -40,7 +40,8 @@ class CompiledRecipe {
   /// The measured views, in the plan's order.
   std::span<ViewChannel> views() { return views_; }
 
-  /// Renders every view of a set, to be measured before the channels release them.
+  /// Renders what is measured of a set, in every view; measure() comes before the channels release
+  /// the views.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
               WorkerPool& workers);
 

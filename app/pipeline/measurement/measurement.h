@@ -67,7 +67,7 @@ class Measurement {
   /// Views of the current recipe.
   std::span<ViewChannel> views() { return recipe_->views(); }
 
-  /// Renders the views of a set.
+  /// Renders what is measured of a set.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
               WorkerPool& workers);
   /// Measures in the views of the rendered set.

@@ -25,20 +25,30 @@ class ViewChannel {
 
   const ViewPlan& plan() const { return *plan_; }
 
-  /// What render() makes from now on: of the picture, nullopt: none; and whether a display view has
-  /// the counts of its radiometric camera.
+  /// What render() and draw() make from now on: of the picture, nullopt: none; and whether a
+  /// display view has the counts of its radiometric camera.
   void set_reading(std::optional<PixelFormat> format, bool counts) {
     format_ = format;
     reads_counts_ = counts;
   }
-  /// In which it shows its one-channel cameras; valid until render() is done.
+  /// In which it shows its one-channel cameras; valid until render() or draw() is done.
   void set_colours(ChosenColours colours) { colours_ = colours; }
-  /// Adds what render() samples.
-  void add_use(PictureUses& uses) const { renderer_->add_use(uses, format_.has_value()); }
+  /// Adds what measure() samples.
+  void add_measured_use(PictureUses& uses) const { renderer_->add_measured_use(uses); }
+  /// Adds what render() and draw() sample.
+  void add_use(PictureUses& uses) const {
+    if (format_) renderer_->add_use(uses);
+  }
 
-  /// The view of a set, valid until take(); null: every buffer is held. Does not allocate.
+  /// Renders a display view of a set, valid until take(); null: every buffer is held. Does not
+  /// allocate.
   const View* render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
                      WorkerPool& workers);
+  /// Renders what is measured of a set, and returns it, valid until take(); draw() adds the picture
+  /// that is read. Neither allocates.
+  const View& measure(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
+                      WorkerPool& workers);
+  void draw(const FramePyramids& pyramids, WorkerPool& workers);
 
   /// Hands over what was rendered last; null: every buffer was held.
   ViewPtr take();

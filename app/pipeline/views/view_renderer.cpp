@@ -80,45 +80,72 @@ std::vector<remap::SourceArea> ViewRenderer::find_sharpened() const {
   return areas;
 }
 
-void ViewRenderer::add_use(PictureUses& uses, bool with_picture) const {
+void ViewRenderer::add_measured_use(PictureUses& uses) const {
+  if (!plan_.measured) return;
+  PictureUse& use = uses[plan_.sources[*plan_.measured].camera];
+  use.mip_levels = std::max(use.mip_levels, levels(*plan_.measured));
+}
+
+void ViewRenderer::add_use(PictureUses& uses) const {
   for (std::size_t n = 0; n < grids_.size(); ++n) {
-    if (!with_picture && plan_.measured != n) continue;
     PictureUse& use = uses[plan_.sources[n].camera];
     use.mip_levels = std::max(use.mip_levels, levels(n));
-    if (with_picture) use.add(sharpness(n), sharpened_[n]);
+    use.add(sharpness(n), sharpened_[n]);
   }
 }
 
-/// By what the view is made, for whoever looks at it.
-void ViewRenderer::describe(View& view, ChosenColours colours) const {
+/// Writes by what the view is made.
+void ViewRenderer::describe(const hal::FrameSet& set, View& view) const {
+  view.frame_set = set.id;
+  view.stamp = set.stamp;
   view.pointing = plan_.pointing;
   view.spec = plan_.projection.spec();
   view.weights.fill(0);
+  for (std::size_t n = 0; n < plan_.sources.size(); ++n) view.weights[n] = plan_.sources[n].weight;
+  const hal::StreamFormat raw = has_counts() ? plan_.sources[*raw_].format : hal::StreamFormat();
+  view.kelvin_per_count = raw.kelvin_per_count;
+  view.kelvin_offset = raw.kelvin_offset;
+}
+
+void ViewRenderer::describe_colours(View& view, ChosenColours colours) const {
   view.colours.fill(std::nullopt);
   for (std::size_t n = 0; n < plan_.sources.size(); ++n) {
     const ViewSource& source = plan_.sources[n];
-    view.weights[n] = source.weight;
     if (is_colour(source)) continue;
     const bool is_chosen = n < colours.size() && colours[n];
     view.colours[n] = is_chosen ? colours[n]->stated : source.colours;
   }
 }
 
+/// Plane of the view that is measured, or that has the counts beside a picture; no data: none.
+MutablePicture ViewRenderer::measured_plane(View& view) const {
+  if (!view.luminance.empty()) return picture_of(PixelFormat::Grey, view.luminance);
+  const auto& words = view.radiometric.empty() ? view.counts : view.radiometric;
+  return words.empty() ? MutablePicture()
+                       : picture_of(plan_.sources[*raw_].format.format, words);
+}
+
 void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
                           WorkerPool& workers, ChosenColours colours) const {
-  view.frame_set = set.id;
-  view.stamp = set.stamp;
-  describe(view, colours);
-  const hal::StreamFormat raw = has_counts() ? plan_.sources[*raw_].format : hal::StreamFormat();
-  view.kelvin_per_count = raw.kelvin_per_count;
-  view.kelvin_offset = raw.kelvin_offset;
-
-  MutablePicture measured;
-  if (!view.luminance.empty()) measured = picture_of(PixelFormat::Grey, view.luminance);
-  const auto& words = view.radiometric.empty() ? view.counts : view.radiometric;
-  if (!words.empty()) measured = picture_of(plan_.sources[*raw_].format.format, words);
+  describe(set, view);
+  describe_colours(view, colours);
+  const MutablePicture measured = measured_plane(view);
   if (view.picture.planes[0].data == nullptr && measured.planes[0].data == nullptr) return;
   render(pyramids, {view.picture, view.validity, measured, false, colours}, workers);
+}
+
+void ViewRenderer::measure(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
+                           WorkerPool& workers) const {
+  describe(set, view);
+  render(pyramids, {{}, view.validity, measured_plane(view)}, workers);
+}
+
+void ViewRenderer::draw(const FramePyramids& pyramids, View& view, WorkerPool& workers,
+                        ChosenColours colours) const {
+  describe_colours(view, colours);
+  if (view.picture.planes[0].data == nullptr) return;
+  render(pyramids, {view.picture, view.validity, measured_plane(view), false, colours, true},
+         workers);
 }
 
 /// A camera that came after the start has another format until the view is compiled for it.
@@ -142,6 +169,7 @@ void ViewRenderer::render(const FramePyramids& pyramids, const RenderTarget& tar
     sources[n].pictures = pictures_of(n, pyramids, sharpness(n));
     if (raw_ == n) {
       sources[n].measured = target.measured;
+      sources[n].is_measured_before = target.is_measured_before;
       sources[n].measured_pictures = pictures_of(n, pyramids, 0);
     }
     if (!matches_.empty()) {

@@ -27,6 +27,7 @@ struct RenderTarget {
   MutablePicture measured;
   bool is_raw = false;  ///< the picture: one-channel sources are not colour-mapped
   ChosenColours colours{};
+  bool is_measured_before = false;  ///< an earlier call wrote `measured`; it is only read
 };
 
 /// Turns frame sets into one view. Everything that depends on calibration or view is compiled when
@@ -39,8 +40,9 @@ class ViewRenderer {
 
   static bool is_supported(PixelFormat format);
 
-  /// Adds what this view samples; without a picture only what is measured.
-  void add_use(PictureUses& uses, bool with_picture = true) const;
+  /// Adds what this view samples for its measured plane, and for its picture.
+  void add_measured_use(PictureUses& uses) const;
+  void add_use(PictureUses& uses) const;
 
   /// Whether its sources count temperature: then render() fills View::counts, too.
   bool has_counts() const { return raw_ && counts_temperature(plan_.sources[*raw_]); }
@@ -50,6 +52,13 @@ class ViewRenderer {
   /// allocate.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
               WorkerPool& workers, ChosenColours colours = {}) const;
+  /// Fills the measured plane and the validity of `view` alone, of which `pyramids` were built with
+  /// add_measured_use(), so that nobody who waits for figures waits for its picture.
+  void measure(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
+               WorkerPool& workers) const;
+  /// Fills the picture of a view that measure() filled, in the format that it has.
+  void draw(const FramePyramids& pyramids, View& view, WorkerPool& workers,
+            ChosenColours colours = {}) const;
   /// The same without a View.
   void render(const FramePyramids& pyramids, const RenderTarget& target, WorkerPool& workers) const;
 
@@ -65,7 +74,9 @@ class ViewRenderer {
   remap::BlendGrid make_blend() const;
   std::vector<std::uint8_t> make_unseen() const;
   std::vector<remap::SourceArea> find_sharpened() const;
-  void describe(View& view, ChosenColours colours) const;
+  void describe(const hal::FrameSet& set, View& view) const;
+  void describe_colours(View& view, ChosenColours colours) const;
+  MutablePicture measured_plane(View& view) const;
   int levels(std::size_t source) const;
   double sharpness(std::size_t source) const;
   std::span<const Picture> pictures_of(std::size_t source, const FramePyramids& pyramids,

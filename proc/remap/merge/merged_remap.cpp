@@ -52,7 +52,7 @@ class Merger {
       : sources_(sources), plan_(plan), kernel_(kernel), out_(out), validity_(validity) {
     assert(!sources.empty() && sources.size() <= kMaxSources);
     for (std::size_t n = 0; n < sources.size(); ++n) {
-      if (SourceTiles::is_measured(sources[n])) measured_ |= set_of(n);
+      if (SourceTiles::is_to_measure(sources[n])) measured_ |= set_of(n);
       if (sources[n].pictures.empty()) continue;
       delivering_ |= set_of(n);
       tiles_[n].emplace(sources[n], out.format, plan.interpolation, kernel);

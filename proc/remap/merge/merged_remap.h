@@ -33,6 +33,8 @@ struct MergedSource {
   /// Pictures of a colour source that are measured in place of `pictures`, where these were
   /// sharpened for display; empty: the same.
   std::span<const Picture> measured_pictures = {};
+  /// An earlier call with the same source wrote `measured`; it is only read.
+  bool is_measured_before = false;
 };
 
 /// Parameters of merging a view's sources.

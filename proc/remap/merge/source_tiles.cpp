@@ -35,7 +35,7 @@ SourceTiles::SourceTiles(const MergedSource& source, PixelFormat view, Interpola
     yuv420_tiles_.emplace(*source.grid, source.pictures, interpolation, kernel,
                           SampledPlanes::Yuv420);
   }
-  if (!is_measured(source)) return;
+  if (!is_to_measure(source)) return;
   const auto from = source.measured_pictures.empty() ? source.pictures : source.measured_pictures;
   measured_tiles_.emplace(*source.grid, from, interpolation, kernel, luminance());
 }
@@ -47,7 +47,7 @@ SampledPlanes SourceTiles::luminance() const {
 void SourceTiles::write_yuv420(int tx, int ty, const MutablePicture& out,
                                const TileArea& area) const {
   yuv420_tiles_->write(tx, ty, out, area);
-  if (is_measured(source_)) measure(tx, ty);
+  measure(tx, ty);
 }
 
 void SourceTiles::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
@@ -57,13 +57,14 @@ void SourceTiles::write(int tx, int ty, const MutablePicture& out, const TileAre
     return;
   }
   is_dimmed_ ? write_luma(tiles_, tx, ty, out, area) : tiles_.write(tx, ty, out, area);
-  if (is_measured(source_)) measure(tx, ty);
+  measure(tx, ty);
   if (!source_.match) return;
   is_wide_ ? source_.match->apply(part(out.samples<std::uint16_t>(), area), out.format)
            : source_.match->apply(part(out.samples<std::uint8_t>(), area), out.format);
 }
 
 void SourceTiles::measure(int tx, int ty) const {
+  if (!measured_tiles_) return;
   const TileArea place = area_of(*source_.grid, tx, ty);
   colour_ == ColourModel::Rgb ? write_luma(*measured_tiles_, tx, ty, source_.measured, place)
                               : measured_tiles_->write(tx, ty, source_.measured, place);

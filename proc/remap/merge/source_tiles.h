@@ -46,11 +46,15 @@ class SourceTiles {
   /// writes its measured plane.
   void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
 
-  /// Writes only the measured plane of a tile.
+  /// Writes only the measured plane of a tile, if it is to be written.
   void measure(int tx, int ty) const;
 
   static bool is_measured(const MergedSource& source) {
     return source.measured.planes[0].data != nullptr;
+  }
+  /// True if the source's measured plane is to be written.
+  static bool is_to_measure(const MergedSource& source) {
+    return is_measured(source) && !source.is_measured_before;
   }
 
  private:
@@ -67,7 +71,7 @@ class SourceTiles {
   bool is_dimmed_;  ///< colours are reduced to luma
   TileRemap tiles_;
   std::optional<TileRemap> yuv420_tiles_;    ///< set if the view is I420 and the source fits
-  std::optional<TileRemap> measured_tiles_;  ///< set if the source is measured
+  std::optional<TileRemap> measured_tiles_;  ///< set if the measured plane is to be written
 };
 
 }  // namespace orbwatch::remap

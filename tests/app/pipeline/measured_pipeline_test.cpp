@@ -69,6 +69,8 @@ class SettableCamera : public HandCamera {
   std::size_t waiting_ = 0;  ///< exposures that do not have the new setting yet
 };
 
+constexpr std::size_t kSeen = 0;  ///< the display view; those of recipes come after it
+
 /// Calls the examining function, one call at a time; the test waits for an expected status.
 class ExaminingSink : public Sink {
  public:
@@ -78,6 +80,8 @@ class ExaminingSink : public Sink {
   void accept(const ViewPtr& view) override {
     const std::lock_guard lock(mutex_);
     if (on_view) on_view(*view);
+    if (view->index == kSeen) seen_set_ = view->frame_set;
+    changed_.notify_all();
   }
   void accept(const Status& status) override {
     const std::lock_guard lock(mutex_);
@@ -95,6 +99,11 @@ class ExaminingSink : public Sink {
     EXPECT_TRUE(changed_.wait_for(lock, seconds(30), [&] { return condition(status_); }));
     return status_;
   }
+  /// Waits for the display view of a set, which comes last.
+  void wait_for_pictures(std::uint64_t set) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, seconds(30), [&] { return seen_set_ == set; }));
+  }
 
   // Set before the pipeline starts.
   std::function<void(const View&)> on_view;
@@ -105,9 +114,9 @@ class ExaminingSink : public Sink {
   std::mutex mutex_;
   std::condition_variable changed_;
   Status status_;
+  std::uint64_t seen_set_ = 0;
 };
 
-constexpr std::size_t kSeen = 0;  ///< the display view; those of recipes come after it
 constexpr std::uint32_t kChecksum = 0xC0FFEE01;
 
 class MeasuredPipeline : public testing::Test {
@@ -145,9 +154,13 @@ class MeasuredPipeline : public testing::Test {
     pipeline.emplace(std::move(plan));
     ASSERT_TRUE(pipeline->start({&sink}));
   }
+  /// Status of the next frame, whose pictures have come, too.
   Status next_frame() {
     camera->expose_as_set();
-    return sink.wait_for([n = ++frames](const Status& status) { return status.frame_set == n; });
+    const Status measured =
+        sink.wait_for([n = ++frames](const Status& status) { return status.frame_set == n; });
+    sink.wait_for_pictures(frames);
+    return measured;
   }
   ExaminingSink sink;  // outlives the pipeline
   SettableCamera* camera = nullptr;
@@ -175,16 +188,16 @@ TEST_F(MeasuredPipeline, EveryStatusHasRecipeAndConfiguration) {
 TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
   std::map<std::uint16_t, std::uint64_t> measured;
   std::uint64_t mixed = 0, unknown_view = 0;
-  std::uint16_t recipe_of_views = 0;
+  std::uint16_t recipe_of_status = 0;
   sink.on_view = [&](const View& view) {
-    if (view.index != kSeen) recipe_of_views = static_cast<std::uint16_t>(view.index);
+    unknown_view += view.index == kSeen || view.index == recipe_of_status ? 0U : 1U;
   };
   sink.on_status = [&](const Status& status) {
+    recipe_of_status = status.recipe;
     const RegionStatus& region = status.regions[0];
     if (region.quality == Quality::NotMeasured) return;
     const double off = region.signals.hot_spot_peak_temperature - celsius(status.recipe);
     mixed += std::abs(off) < 0.1 ? 0U : 1U;
-    unknown_view += recipe_of_views == status.recipe ? 0U : 1U;
     ++measured[status.recipe];
   };
   start({plan_with_exposure(1), plan_with_exposure(2), plan_with_exposure(3)}, 3);
@@ -250,9 +263,10 @@ TEST_F(MeasuredPipeline, StoppedIsAStateAndCamerasAndViewsGoOn) {
   EXPECT_EQ(stopped.state, SystemState::Stopped);
   EXPECT_EQ(stopped.regions[0].quality, Quality::NotMeasured);
   EXPECT_FALSE(stopped.process_active);
-  EXPECT_EQ(stopped.views[kSeen].published, 2U);
-  EXPECT_EQ(stopped.views[1].published, 2U);
   EXPECT_EQ(stopped.cameras[0].frames, 2U);
+  const Status later =
+      sink.wait_for([](const Status& status) { return status.views[kSeen].published == 2; });
+  EXPECT_EQ(later.views[1].published, 2U);
   ASSERT_EQ(pipeline->start_measuring(), CommandResult::Done);
   const Status running = next_frame();
   EXPECT_EQ(running.state, SystemState::Running);

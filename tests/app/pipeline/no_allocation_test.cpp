@@ -106,6 +106,7 @@ TEST(FramePath, DoesNotAllocate) {
     recipe->render(*set, pyramids, buffers, workers);
     recipe->measure();
     recipe->watch(set->stamp, true, {});
+    recipe->views()[0].draw(pyramids, workers);
     ViewPtr view = recipe->views()[0].take();
     ASSERT_TRUE(view);
     mailbox.put(std::move(view));

@@ -49,10 +49,12 @@ class WatchingSink : public Sink {
     changed_.notify_all();
   }
 
+  /// Waits for a set's status and its last view.
   Status wait_for_set(std::uint64_t number) {
     std::unique_lock lock(mutex_);
-    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30),
-                                  [&] { return status_.frame_set >= number; }));
+    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30), [&] {
+      return status_.frame_set >= number && newest_[kRight].frame_set >= number;
+    }));
     return status_;
   }
   Shown wait_for_pointing(std::size_t view, std::uint64_t number) {

@@ -60,7 +60,7 @@ std::vector<RegionStatus> measured(const files::Resolved& site) {
   pipeline::WorkerPool workers(0);
   const hal::FrameSet set = noisy_set(streams[kThermalCamera]);
   pipeline::PictureUses uses;
-  for (const pipeline::ViewChannel& view : recipe.views()) view.add_use(uses);
+  for (const pipeline::ViewChannel& view : recipe.views()) view.add_measured_use(uses);
   pipeline::FramePyramids pyramids(streams, uses);
   pyramids.build(set, uses, workers);
   pipeline::ViewBuffers buffers({}, {recipe.plan().views}, {});

@@ -84,7 +84,7 @@ class MeasurementTest : public testing::Test {
     set.held[0] = held;
     measurement->apply_commands(stamp);
     PictureUses uses;
-    for (const ViewChannel& view : measurement->views()) view.add_use(uses);
+    for (const ViewChannel& view : measurement->views()) view.add_measured_use(uses);
     pyramids.build(set, uses, workers);
     measurement->render(set, pyramids, *buffers, workers);
     measurement->measure(set);

@@ -24,7 +24,10 @@ class ViewChannelTest : public testing::Test {
   const View* render(ViewChannel& channel) {
     ++set.id;
     pyramids.build(set, {}, workers);
-    return channel.render(set, pyramids, *buffers, workers);
+    if (!channel.plan().measured) return channel.render(set, pyramids, *buffers, workers);
+    const View& view = channel.measure(set, pyramids, *buffers, workers);
+    channel.draw(pyramids, workers);
+    return &view;
   }
   /// Publishes until the readers, who may keep two, hold every one.
   std::vector<ViewPtr> hold_all(ViewChannel& channel) {
@@ -115,6 +118,23 @@ TEST_F(ViewChannelTest, AMeasuredViewHasThemIfItsCameraCountsTemperature) {
   const View* const view = render(thermal);
   ASSERT_FALSE(view->counts.empty());
   EXPECT_EQ(view->counts.data, view->radiometric.data);
+}
+
+TEST_F(ViewChannelTest, AMeasuredViewHasItsPictureAfterItsPlane) {
+  plan.measured = 0;
+  buffers.emplace(buffers_for(plan));
+  ViewChannel channel(plan);
+  channel.set_reading(PixelFormat::Rgb, false);
+  ++set.id;
+  pyramids.build(set, {}, workers);
+  const View& view = channel.measure(set, pyramids, *buffers, workers);
+  EXPECT_EQ(*view.radiometric.at(48, 32), 0x0101);
+  EXPECT_EQ(static_cast<Validity>(*view.validity.at(48, 32)), Validity::Seen);
+  EXPECT_EQ(view.picture.planes[0].data, nullptr) << "nobody who measures waits for it";
+  channel.draw(pyramids, workers);
+  EXPECT_EQ(view.picture.format, PixelFormat::Rgb);
+  EXPECT_NE(view.picture.planes[0].data, nullptr);
+  EXPECT_TRUE(channel.take());
 }
 
 /// Recipes with views of one size follow each other.

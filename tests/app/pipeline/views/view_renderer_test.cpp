@@ -56,6 +56,30 @@ hal::Frame plain(PixelFormat format, std::uint16_t value) {
   return buffer;
 }
 
+hal::Frame noise(PixelFormat format) {
+  auto frame = std::const_pointer_cast<hal::FrameBuffer>(plain(format, 0));
+  for (std::size_t i = 0; i < frame->capacity; ++i) {
+    frame->memory[i] = static_cast<std::byte>(i * 2654435761U >> 24);
+  }
+  return frame;
+}
+
+/// Bytes of a plane or a picture, without what it does not use of its memory.
+std::string bytes_of(const void* data, std::size_t count) {
+  return {static_cast<const char*>(data), count};
+}
+std::string picture_bytes(const View& view) {
+  const auto pixels = static_cast<std::size_t>(view.picture.width) * view.picture.height;
+  const bool is_yuv = view.picture.format == PixelFormat::I420;
+  return bytes_of(view.picture.planes[0].data,
+                  is_yuv ? pixels * 3 / 2 : pixels * info(view.picture.format).channels());
+}
+std::string measured_bytes(const View& view) {
+  const auto pixels = static_cast<std::size_t>(view.validity.width) * view.validity.height;
+  return view.luminance.empty() ? bytes_of(view.radiometric.data, 2 * pixels)
+                                : bytes_of(view.luminance.data, pixels);
+}
+
 int red(const View& view, int lon) {
   return view.picture.samples<std::uint8_t>().at(lon + 180, 90)[0];
 }
@@ -173,7 +197,7 @@ TEST_F(ViewRendererTest, WithoutAPictureOnlyTheMeasuredSourceIsHalved) {
   const ViewRenderer renderer(plan);
   PictureUses with, without;
   renderer.add_use(with);
-  renderer.add_use(without, false);
+  renderer.add_measured_use(without);
   EXPECT_GT(with[0].mip_levels, 0);
   EXPECT_EQ(without[0].mip_levels, 0);
   EXPECT_EQ(without[1].mip_levels, with[1].mip_levels);
@@ -186,9 +210,38 @@ TEST_F(ViewRendererTest, WithoutAPictureNothingIsSharpened) {
   const ViewRenderer renderer(plan);
   PictureUses with, without;
   renderer.add_use(with);
-  renderer.add_use(without, false);
+  renderer.add_measured_use(without);
   EXPECT_EQ(with[0].sharpened().size(), 1U);
   EXPECT_TRUE(without[0].sharpened().empty());
+}
+
+TEST_F(ViewRendererTest, APictureDrawnAfterItsPlaneIsTheSame) {
+  for (const std::size_t measured : {0U, 1U}) {
+    for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::I420, PixelFormat::Grey}) {
+      ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 30), source(1, PixelFormat::Y16, 90)});
+      plan.sources[0].sharpness = 0.8;
+      plan.measured = measured;
+      set.frames = {noise(PixelFormat::Rgb), noise(PixelFormat::Y16)};
+      RenderedView rendered(plan);
+      rendered.set_format(format);
+      const View& at_once = rendered.render(set, workers);
+      const ViewRenderer renderer(plan);
+      FramePyramids pyramids(source_formats(plan), use_of(renderer));
+      PictureUses uses;
+      renderer.add_measured_use(uses);
+      pyramids.build(set, uses, workers);
+      View view = make_view(plan);
+      renderer.measure(set, pyramids, view, workers);
+      EXPECT_EQ(measured_bytes(view), measured_bytes(at_once)) << measured;
+      set_format(view, format);
+      pyramids.extend(use_of(renderer), workers);
+      renderer.draw(pyramids, view, workers);
+      EXPECT_EQ(picture_bytes(view), picture_bytes(at_once)) << measured;
+      EXPECT_EQ(measured_bytes(view), measured_bytes(at_once)) << measured;
+      EXPECT_EQ(view.frame_set, at_once.frame_set);
+      EXPECT_EQ(view.colours[1].has_value(), at_once.colours[1].has_value());
+    }
+  }
 }
 
 TEST_F(ViewRendererTest, MeasuresTheLuminanceOfColour) {
@@ -239,14 +292,6 @@ TEST_F(ViewRendererTest, SharedMipLevelsGiveTheSameBytesAsThoseOfOneView) {
     ViewRenderer(plan).render(set, shared, view, workers);
     EXPECT_EQ(view.bytes, RenderedView(plan).render(set, workers).bytes);
   }
-}
-
-hal::Frame noise(PixelFormat format) {
-  auto frame = std::const_pointer_cast<hal::FrameBuffer>(plain(format, 0));
-  for (std::size_t i = 0; i < frame->capacity; ++i) {
-    frame->memory[i] = static_cast<std::byte>(i * 2654435761U >> 24);
-  }
-  return frame;
 }
 
 /// Panorama of one camera from noise, sharpened by the fixture's amount.
