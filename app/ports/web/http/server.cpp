@@ -4,7 +4,6 @@
 #include <microhttpd.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -300,10 +299,10 @@ Result<> Server::listen() {
 
 Server::~Server() {
   if (!daemon_) return;
-  const int listening = ::MHD_quiesce_daemon(daemon_);
+  // Clients that connect from now on are refused. MHD_quiesce_daemon() would stop listening first,
+  // but ends the process at random: its thread and this one both take the socket out of epoll.
   connections_.end_all();
   ::MHD_stop_daemon(daemon_);
-  if (listening >= 0) ::close(listening);
 }
 
 void Server::end_overdue() { counts_.overdue += connections_.end_overdue(hal::Clock::now()); }

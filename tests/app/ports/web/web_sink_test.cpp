@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/web_sink.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <regex>
 #include <set>
+#include <thread>
 
 #include "app/model/status/json.h"
 #include "app/model/status/readings.h"
+#include "hal/thread/file_descriptor.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {
@@ -264,6 +269,31 @@ TEST_F(Served, StopEndsStreamsAndWaitingRequests) {
   waiting.rest();
   EXPECT_EQ(sink->statistics().connections, 0U);
   hand_over(*sink, make_view(0, "front", 1, 64, 48));
+}
+
+/// Connects to a port of this computer, whether anybody listens or not, and disconnects.
+void knock(int port) {
+  const hal::FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+/// The library's own way to stop listening first ends the process at random.
+TEST_F(Served, StopsAgainAndAgainWhileClientsConnect) {
+  constexpr int kRounds = 100;
+  for (int round = 0; round < kRounds; ++round) {
+    start();
+    std::atomic<int> knocks{0};
+    const auto connect = [&knocks, port = port()](const std::stop_token& end) {
+      for (; !end.stop_requested(); ++knocks) knock(port);
+    };
+    const std::jthread one(connect), other(connect);
+    ASSERT_TRUE(eventually([&] { return knocks > 2; })) << round;
+    sink->stop();
+  }
 }
 
 TEST_F(Served, APortThatIsTakenIsAnErrorThatNamesIt) {
