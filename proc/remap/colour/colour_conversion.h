@@ -71,6 +71,12 @@ class YuvToRgb {
   /// Luma alone, 0..255: the value of all three channels of a pixel without colour.
   constexpr std::uint8_t luma(int y) const { return clip((y * y_ + black_) >> kBits); }
 
+  /// The same for a run.
+  [[gnu::always_inline]] SampleRun luma(const SampleRun& luminance) const {
+    const EvenOdd y(luminance);
+    return clipped_sums(Lanes(0).plus(y.even, y_), Lanes(0).plus(y.odd, y_), Lanes(black_));
+  }
+
   constexpr YuvCoefficients coefficients() const {
     return {y_, red_v_, green_u_, green_v_, blue_u_, red_, green_, blue_};
   }

@@ -5,10 +5,14 @@
 
 namespace orbwatch::remap {
 
-/// Luma of an R'G'B' pixel by BT.601, 0..255.
+/// Weights of R', G' and B' in luma by BT.601, Q16; they add up to 1.
+inline constexpr std::uint16_t kLumaRed = 19595, kLumaGreen = 38470, kLumaBlue = 7471;
+
+/// Luma of an R'G'B' pixel by BT.601, rounded, 0..255.
 constexpr std::uint8_t luma(const std::uint8_t* rgb) {
-  return static_cast<std::uint8_t>((rgb[0] * 19595U + rgb[1] * 38470U + rgb[2] * 7471U + 32768U) >>
-                                   16);
+  constexpr std::uint32_t kHalf = 1U << 15;
+  return static_cast<std::uint8_t>(
+      (rgb[0] * kLumaRed + rgb[1] * kLumaGreen + rgb[2] * kLumaBlue + kHalf) >> 16);
 }
 
 /// The same for adjacent pixels.

@@ -227,8 +227,8 @@ void write_luminance(const SampledTile& tile, ColourSpace colour_space, const Mu
                      const TileArea& area) {
   const YuvToRgb convert = conversion_from(colour_space);
   write_rows<1>(out, area, [&](int y, std::uint8_t* to) {
-    const auto luminance = run_at<SampleRun>(tile, 0, y * kTile);
-    for (std::size_t x = 0; x < kRun; ++x) to[x] = convert.luma(luminance[x]);
+    const SampleRun luma = convert.luma(run_at<SampleRun>(tile, 0, y * kTile));
+    std::memcpy(to, luma.data(), luma.size());
   });
 }
 
