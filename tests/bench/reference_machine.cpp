@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kColour = 0, kThermal = 1;               // cameras
 constexpr std::size_t kPanorama = 0, kDoor = 1, kProcess = 2;  // views; those of recipes are last
+constexpr std::size_t kViews = 3;
 constexpr double kThermalYaw = 180;
 constexpr double kKelvinPerCount = 0.04;
 constexpr double kRate = 30;
@@ -148,48 +149,51 @@ std::unique_ptr<PreparedCamera> camera(const char* name, const hal::StreamFormat
 /// Requires the data that the readers of the machine's views require.
 class ReferenceMachine::Reader : public app::Sink {
  public:
-  explicit Reader(std::function<void()> on_set) : on_set_(std::move(on_set)) {}
+  Reader(ReadAs read_as, std::function<void()> on_set)
+      : read_as_(read_as), on_set_(std::move(on_set)) {}
 
   Result<> start() override { return {}; }
   void stop() override {}
   void accept_frames(const hal::FrameSet& set) override {
     is_whole_ = set.matched;
+    views_ = 0;
     on_set_();
   }
   app::PictureNeeds needs(std::size_t view, hal::TimePoint) override {
     app::PictureNeeds needs;
-    (view == kDoor ? needs.jpeg : needs.rgb) = true;
+    const bool is_jpeg = read_as_ == ReadAs::Jpeg || view == kDoor;
+    (is_jpeg ? needs.jpeg : needs.rgb) = true;
     return needs;
   }
-  void accept(const app::ViewPtr&) override { ++views_; }
   void accept(const app::Status& status) override {
+    if (views_ == 0) is_whole_ = is_whole_ && status.regions[0].signals.hot_spot_present > 0;
+  }
+  /// The pictures of a set follow its status.
+  void accept(const app::ViewPtr& view) override {
+    if (++views_ < kViews) return;
     const std::lock_guard lock(mutex_);
-    if (status.frame_set > frame_set_) {
-      is_whole_ = is_whole_ && views_ == status.view_count &&
-                  status.regions[0].signals.hot_spot_present > 0;
-      views_ = 0;
-    }
-    frame_set_ = status.frame_set;
+    if (is_whole_) shown_set_ = view->frame_set;
     changed_.notify_all();
   }
 
-  /// True if set `number` ended, with every view and a hot spot.
+  /// True if set `number` ended, with a hot spot and every view.
   bool wait_for(std::uint64_t number) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, kPatience, [&] { return frame_set_ >= number; }) && is_whole_;
+    return changed_.wait_for(lock, kPatience, [&] { return shown_set_ >= number; });
   }
 
  private:
-  std::function<void()> on_set_;
-  std::size_t views_ = 0;  ///< number in the set; used by the pipeline's thread
+  const ReadAs read_as_;
+  const std::function<void()> on_set_;
+  std::size_t views_ = 0;  ///< number in the set; this and the next are the pipeline thread's
+  bool is_whole_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::uint64_t frame_set_ = 0;
-  bool is_whole_ = false;
+  std::uint64_t shown_set_ = 0;
 };
 
-ReferenceMachine::ReferenceMachine(std::function<void()> on_set)
-    : reader_(std::make_unique<Reader>(std::move(on_set))) {
+ReferenceMachine::ReferenceMachine(ReadAs read_as, std::function<void()> on_set)
+    : reader_(std::make_unique<Reader>(read_as, std::move(on_set))) {
   auto colour = camera("colour", colour_format(), paint_colour);
   auto thermal = camera("thermal", thermal_format(), paint_thermal);
   colour_ = colour.get();
@@ -200,7 +204,7 @@ ReferenceMachine::ReferenceMachine(std::function<void()> on_set)
   plan.formats = {colour_format(), thermal_format()};
   plan.views = display_views();
   plan.recipes.push_back(recipe());
-  plan.view_count = kProcess + 1;
+  plan.view_count = kViews;
   plan.workers = 0;
   plan.deadline = kPatience;
   plan.sync.max_wait = kPatience;
