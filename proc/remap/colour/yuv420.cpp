@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <utility>
 
 #include "proc/remap/colour/jfif_run.h"
@@ -26,11 +27,24 @@ ChromaRuns chroma_row(const SampledTile& tile, PixelFormat format, int y) {
   return row;
 }
 
+/// A whole run is copied by a size that the compiler knows.
+void copy_chroma(const ChromaRun& from, int count, std::uint8_t* to) {
+  if (count == kRun / 2) {
+    std::memcpy(to, from.data(), kRun / 2);
+  } else {
+    std::memcpy(to, from.data(), static_cast<std::size_t>(count));
+  }
+}
+
 void write_chroma_row(const ChromaRuns& row, const MutablePicture& out, const TileArea& area,
                       int y) {
   const int x = area.x / 2;
-  std::copy_n(row.u.begin(), area.columns / 2, row_of(out, 1, x, area.y / 2 + y));
-  std::copy_n(row.v.begin(), area.columns / 2, row_of(out, 2, x, area.y / 2 + y));
+  copy_chroma(row.u, area.columns / 2, row_of(out, 1, x, area.y / 2 + y));
+  copy_chroma(row.v, area.columns / 2, row_of(out, 2, x, area.y / 2 + y));
+}
+
+void write_luma_row(const std::uint8_t* rgb, int columns, std::uint8_t* to) {
+  columns == kRun ? luma_run(rgb, to) : luma(rgb, to, columns);
 }
 
 }  // namespace
@@ -38,8 +52,9 @@ void write_chroma_row(const ChromaRuns& row, const MutablePicture& out, const Ti
 void write_yuv420(const ImageView<const std::uint8_t>& rgb, const MutablePicture& out,
                   const TileArea& area) {
   assert((area.x | area.y | area.columns | area.rows) % 2 == 0);
-  for (int y = 0; y < area.rows; ++y)
-    luma(rgb.row(y), row_of(out, 0, area.x, area.y + y), area.columns);
+  for (int y = 0; y < area.rows; ++y) {
+    write_luma_row(rgb.row(y), area.columns, row_of(out, 0, area.x, area.y + y));
+  }
   for (int y = 0; y < area.rows / 2; ++y) {
     write_chroma_row(chroma_run(rgb.row(2 * y), rgb.row(2 * y + 1)), out, area, y);
   }
