@@ -90,10 +90,9 @@ void BallWatch::observe(const Picture& picture, hal::TimePoint stamp, CameraWatc
 }
 
 void BallWatch::look_at_focus(const Picture& picture) {
-  const auto focus = align::measure_focus(picture, outline_);
-  const bool is_measured = focus && focus->reflection;
-  seen_.blur = is_measured ? focus->reflection->sigma : signals::kNotValid;
-  seen_.focus = is_measured ? level_of(seen_.blur, settings_.blur) : WatchLevel::NotMeasured;
+  const auto blur = align::reflection_blur(picture, outline_);
+  seen_.blur = blur ? blur->sigma : signals::kNotValid;
+  seen_.focus = blur ? level_of(seen_.blur, settings_.blur) : WatchLevel::NotMeasured;
   log_level("focus", seen_.focus, logged_focus_);
 }
 

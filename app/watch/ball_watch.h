@@ -19,7 +19,7 @@ namespace orbwatch::app {
 /// the clean ball shows is learnt once for each alignment and kept as a file. Thread-bound.
 class BallWatch {
  public:
-  /// A look at the focus takes some tens of milliseconds.
+  /// A look at the focus takes some milliseconds.
   static constexpr std::chrono::seconds kFocusPeriod{10};
 
   /// `name`: the camera's. `folder`: of what must outlast a restart. Error: an outline that lies

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "proc/align/detect/picture/luminance.h"
+#include "proc/align/limb_distance.h"
 
 namespace orbwatch::align {
 namespace {
@@ -16,6 +17,7 @@ constexpr int kMarginAround = 16;     // px around the ball, needed by edges on 
 constexpr double kDarkShare = 0.02;   // share of full scale that a tenth of the pixels must reach
 constexpr double kDarkNoise = 6;      // multiple of the noise that they must reach
 constexpr double kOverexposed = 0.5;  // share of pixels at full scale
+constexpr double kJudgedRho = 0.95;   // the light within it counts
 constexpr int kSampledRows = 256;
 
 cv::Rect bounds(const optics::Outline& outline) {
@@ -37,13 +39,16 @@ double quantile(std::vector<float>& values, double share) {
 /// J. Immerkaer, Fast noise variance estimation, 1996: the residual of a picture without its planes
 /// and edges; by the median, because reflections are full of edges.
 double noise_of(const cv::Mat& brightness) {
-  const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
-  std::vector<float> magnitudes;
+  std::vector<float> magnitudes, column(static_cast<std::size_t>(brightness.cols));
   const int step = std::max(1, brightness.rows / kSampledRows);
   for (int v = 1; v + 2 < brightness.rows; v += 3 * step) {
-    cv::Mat left;
-    cv::filter2D(brightness.rowRange(v - 1, v + 2), left, CV_32F, kernel);
-    for (int u = 1; u + 1 < left.cols; ++u) magnitudes.push_back(std::abs(left.at<float>(1, u)));
+    const float* const above = brightness.ptr<float>(v - 1);
+    const float* const here = brightness.ptr<float>(v);
+    const float* const below = brightness.ptr<float>(v + 1);
+    for (std::size_t u = 0; u < column.size(); ++u) column[u] = above[u] - 2 * here[u] + below[u];
+    for (std::size_t u = 1; u + 1 < column.size(); ++u) {
+      magnitudes.push_back(std::abs(column[u - 1] - 2 * column[u] + column[u + 1]));
+    }
   }
   if (magnitudes.empty()) return 0;
   return quantile(magnitudes, 0.5) / 0.6745 / 6;
@@ -52,10 +57,13 @@ double noise_of(const cv::Mat& brightness) {
 /// Reason why a ball in this light cannot be judged; else empty.
 std::string bad_light(const BallCrop& crop) {
   std::vector<float> inside;
+  const LimbDistance distance(crop.outline);
   const int step = std::max(1, crop.brightness.rows / kSampledRows);
   for (int v = 0; v < crop.brightness.rows; v += step) {
+    const float* const row = crop.brightness.ptr<float>(v);
     for (int u = 0; u < crop.brightness.cols; u += step) {
-      if (crop.rho(u, v) < 0.95) inside.push_back(crop.brightness.at<float>(v, u));
+      const double rho2 = distance.squared({u - crop.outline.centre.u, v - crop.outline.centre.v});
+      if (rho2 < kJudgedRho * kJudgedRho) inside.push_back(row[u]);
     }
   }
   if (inside.empty()) return "the picture shows nothing of the ball";
@@ -72,9 +80,7 @@ std::string bad_light(const BallCrop& crop) {
 }  // namespace
 
 double BallCrop::rho(double u, double v) const {
-  const double turn = optics::radians(outline.angle), c = std::cos(turn), s = std::sin(turn);
-  const double du = u - outline.centre.u, dv = v - outline.centre.v;
-  return std::hypot((du * c + dv * s) / outline.rx, (dv * c - du * s) / outline.ry);
+  return LimbDistance(outline).of({u - outline.centre.u, v - outline.centre.v});
 }
 
 Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline) {
@@ -85,7 +91,7 @@ Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outlin
     return fail("the picture shows less than half of the ball; it must show most of it");
   }
   BallCrop crop;
-  luminance_of(picture)(seen).convertTo(crop.brightness, CV_32F);
+  luminance_of(picture, seen).convertTo(crop.brightness, CV_32F);
   crop.outline = outline;
   crop.outline.centre = {outline.centre.u - seen.x, outline.centre.v - seen.y};
   crop.full_scale = std::exp2(info(picture.format).bits) - 1;

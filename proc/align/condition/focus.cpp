@@ -7,10 +7,12 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "proc/align/condition/ball_crop.h"
 #include "proc/align/condition/step_edge.h"
+#include "proc/align/limb_distance.h"
 
 namespace orbwatch::align {
 namespace {
@@ -19,7 +21,6 @@ constexpr double kInner = 0.85;  // rho up to which the reflection is wide enoug
 constexpr int kEdgeCell = 8;     // px; side of a cell, each searched for one edge
 constexpr int kMostBands = 64;   // rows of cells, about, that are searched
 constexpr std::size_t kMostEdges = 200;
-constexpr int kBandMargin = 1;            // rows above and below, needed by the filter
 constexpr int kRays = 150;                // rays through the limb
 constexpr std::size_t kFewestEdges = 10;  // edges that a figure needs
 constexpr double kSmallestBall = 40;      // px; radius of the ball in the smallest picture used
@@ -37,19 +38,22 @@ struct EdgeCandidate {
   float slope2;
 };
 
-/// Slopes of a slightly smoothed picture; brightness per pixel.
+/// Slopes of a part of a slightly smoothed picture; brightness per pixel.
 struct SmoothSlopes {
   cv::Mat u, v;
 
-  explicit SmoothSlopes(const cv::Mat& brightness) {
-    cv::Mat smooth;
-    cv::GaussianBlur(brightness, smooth, {}, 1);
-    cv::Sobel(smooth, u, CV_32F, 1, 0, 3, 1 / 8.0);
-    cv::Sobel(smooth, v, CV_32F, 0, 1, 3, 1 / 8.0);
-  }
-  float squared(const cv::Point& p) const {
-    const float a = u.at<float>(p), b = v.at<float>(p);
-    return a * a + b * b;
+  SmoothSlopes(const cv::Mat& brightness, const cv::Rect& part) {
+    constexpr int kMargin = 1;  // px around that Sobel's filter needs
+    const cv::Rect wider(part.x - kMargin, part.y - kMargin, part.width + 2 * kMargin,
+                         part.height + 2 * kMargin);
+    const cv::Rect seen = wider & cv::Rect({}, brightness.size());
+    const cv::Rect own(part.tl() - seen.tl(), part.size());
+    cv::Mat smooth, slope;
+    cv::GaussianBlur(brightness(seen), smooth, {}, 1);
+    cv::Sobel(smooth, slope, CV_32F, 1, 0, 3, 1 / 8.0);
+    u = slope(own).clone();
+    cv::Sobel(smooth, slope, CV_32F, 0, 1, 3, 1 / 8.0);
+    v = slope(own);
   }
   double angle(const cv::Point& p) const {
     return std::atan2(static_cast<double>(v.at<float>(p)), static_cast<double>(u.at<float>(p)));
@@ -64,20 +68,47 @@ bool is_clipped(const BallCrop& crop, const cv::Point& pixel) {
   return high >= kClipped * crop.full_scale;
 }
 
-/// The steepest place of the cell that begins at column `left` of a band; `top` is the band's row
-/// in the picture. nullopt if it may be noise or is overexposed.
-std::optional<EdgeCandidate> steepest(const BallCrop& crop, const SmoothSlopes& band, int left,
-                                      int top) {
-  const float noise = static_cast<float>(crop.noise * crop.noise);
-  EdgeCandidate best{{}, 0, noise};
+/// The steepest place of the cell that begins at column `left` of a band. nullopt if it may be
+/// noise, whose standard deviation is `noise`.
+std::optional<EdgeCandidate> steepest(const SmoothSlopes& band, int left, double noise) {
+  const float least = static_cast<float>(noise * noise);
+  EdgeCandidate best{{}, 0, least};
   for (int v = 0; v < kEdgeCell; ++v) {
+    const float* const along_u = band.u.ptr<float>(v);
+    const float* const along_v = band.v.ptr<float>(v);
     for (int u = left; u < left + kEdgeCell; ++u) {
-      const float slope2 = band.squared({u, v + kBandMargin});
-      if (slope2 > best.slope2) best = {{u, v + top}, band.angle({u, v + kBandMargin}), slope2};
+      const float slope2 = along_u[u] * along_u[u] + along_v[u] * along_v[u];
+      if (slope2 > best.slope2) best = {{u, v}, 0, slope2};
     }
   }
-  if (best.slope2 <= noise || is_clipped(crop, best.pixel)) return std::nullopt;
+  if (best.slope2 <= least) return std::nullopt;
+  best.normal = band.angle(best.pixel);
   return best;
+}
+
+/// The columns of the cells in the band from row `top` on whose middles are on the inner ball.
+cv::Range inner_columns(const BallCrop& crop, int top) {
+  const LimbDistance distance(crop.outline);
+  const double middle = kEdgeCell / 2.0, v = top + middle - crop.outline.centre.v;
+  cv::Range columns(0, 0);
+  for (int left = 0; left + kEdgeCell <= crop.brightness.cols; left += kEdgeCell) {
+    if (distance.of({left + middle - crop.outline.centre.u, v}) > kInner) continue;
+    if (columns.empty()) columns.start = left;
+    columns.end = left + kEdgeCell;
+  }
+  return columns;
+}
+
+/// The steepest ones that are not overexposed.
+std::vector<EdgeCandidate> steepest_of(std::vector<EdgeCandidate> found, const BallCrop& crop) {
+  std::vector<EdgeCandidate> kept;
+  std::ranges::make_heap(found, {}, &EdgeCandidate::slope2);
+  while (!found.empty() && kept.size() < kMostEdges) {
+    std::ranges::pop_heap(found, {}, &EdgeCandidate::slope2);
+    if (!is_clipped(crop, found.back().pixel)) kept.push_back(found.back());
+    found.pop_back();
+  }
+  return kept;
 }
 
 /// The steepest place of each cell on the inner ball; the steepest ones of all.
@@ -85,20 +116,18 @@ std::vector<EdgeCandidate> reflected_edges(const BallCrop& crop) {
   const int rows = crop.brightness.rows,
             pause = kEdgeCell * std::max(1, rows / kEdgeCell / kMostBands);
   std::vector<EdgeCandidate> found;
-  for (int top = kBandMargin; top + kEdgeCell + kBandMargin <= rows; top += pause) {
-    const SmoothSlopes band(
-        crop.brightness.rowRange(top - kBandMargin, top + kEdgeCell + kBandMargin));
-    for (int left = 0; left + kEdgeCell <= crop.brightness.cols; left += kEdgeCell) {
-      if (crop.rho(left + kEdgeCell / 2.0, top + kEdgeCell / 2.0) > kInner) continue;
-      const auto candidate = steepest(crop, band, left, top);
-      if (candidate) found.push_back(*candidate);
+  for (int top = 1; top + kEdgeCell < rows; top += pause) {
+    const cv::Range columns = inner_columns(crop, top);
+    if (columns.empty()) continue;
+    const SmoothSlopes band(crop.brightness, {columns.start, top, columns.size(), kEdgeCell});
+    for (int left = 0; left < columns.size(); left += kEdgeCell) {
+      auto candidate = steepest(band, left, crop.noise);
+      if (!candidate) continue;
+      candidate->pixel += cv::Point(columns.start, top);
+      found.push_back(*candidate);
     }
   }
-  const std::size_t kept = std::min(kMostEdges, found.size());
-  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(),
-                    [](const auto& a, const auto& b) { return a.slope2 > b.slope2; });
-  found.resize(kept);
-  return found;
+  return steepest_of(std::move(found), crop);
 }
 
 /// Places all along the limb.
@@ -171,6 +200,11 @@ Result<Blur> blur_of(BallCrop crop, const Candidates& candidates) {
   return fail("too few clear edges; more light or a richer scene is needed");
 }
 
+Result<> check_limb(const Picture& picture, const optics::Outline& outline) {
+  return optics::check_ellipse(outline).and_then(
+      [&] { return optics::check_outline(outline, picture.width, picture.height); });
+}
+
 }  // namespace
 
 Result<double> Focus::focused_on_ball() const {
@@ -180,9 +214,14 @@ Result<double> Focus::focused_on_ball() const {
   return std::sqrt(std::max(excess, 0.0));
 }
 
+Result<Blur> reflection_blur(const Picture& picture, const optics::Outline& outline) {
+  return check_limb(picture, outline)
+      .and_then([&] { return crop_ball(picture, outline); })
+      .and_then([](const BallCrop& crop) { return blur_of(crop, reflected_edges); });
+}
+
 Result<Focus> measure_focus(const Picture& picture, const optics::Outline& outline) {
-  const auto checked = optics::check_ellipse(outline).and_then(
-      [&] { return optics::check_outline(outline, picture.width, picture.height); });
+  const auto checked = check_limb(picture, outline);
   if (!checked) return tl::unexpected(checked.error());
   const Result<BallCrop> crop = crop_ball(picture, outline);
   if (!crop) return Focus{tl::unexpected(crop.error()), tl::unexpected(crop.error())};

@@ -26,6 +26,11 @@ struct Focus {
   Result<double> focused_on_ball() const;
 };
 
+/// The blur of the reflection alone: step edges in one picture, see measure_focus(), at a fraction
+/// of its cost. Reentrant; takes some milliseconds. Error: an outline that is not valid, or outside
+/// of the picture; the reason why it is not measured.
+Result<Blur> reflection_blur(const Picture& picture, const optics::Outline& outline);
+
 /// Measures step edges in one picture of any format, so that contrast, exposure and noise affect
 /// only the error. Motion does not disturb it, unless it smears. `outline`: the ball's limb. The
 /// limb's figure is the rougher one: the reflection is squeezed there and merges into the

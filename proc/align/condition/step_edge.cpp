@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "proc/align/condition/normal_step.h"
 
 namespace orbwatch::align {
 namespace {
@@ -41,11 +42,10 @@ class StepModel {
     for (std::size_t n = 0; n < rows; ++n) {
       const Sample& sample = samples_[n];
       const double x = (sample.across * c + sample.along * s - p[kOffset]) / sigma;
-      const double step = 0.5 * std::erfc(-x / std::numbers::sqrt2);
+      const auto [step, density] = normal_step(x);
       residuals[n] = p[kLow] + p[kContrast] * step + p[kRamp] * sample.across - sample.brightness;
       if (jacobian == nullptr) continue;
-      const double slope =
-          p[kContrast] * std::exp(-0.5 * x * x) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+      const double slope = p[kContrast] * density;
       jacobian[kLow * rows + n] = 1;
       jacobian[kContrast * rows + n] = step;
       jacobian[kOffset * rows + n] = -slope / sigma;

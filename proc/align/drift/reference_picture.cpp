@@ -2,6 +2,7 @@
 #include "proc/align/drift/reference_picture.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "proc/align/drift/fault.h"
 #include "proc/align/drift/patch_window.h"
@@ -19,17 +20,18 @@ void ReferencePicture::add(const Picture& picture) {
 }
 
 cv::Mat ReferencePicture::median() const {
-  cv::Mat median = pictures_.front().clone();
-  std::vector<float> samples(pictures_.size());
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  for (int v = 0; v < median.rows; ++v) {
-    for (int u = 0; u < median.cols; ++u) {
-      for (std::size_t n = 0; n < samples.size(); ++n) samples[n] = pictures_[n].at<float>(v, u);
-      std::nth_element(samples.begin(), middle, samples.end());
-      median.at<float>(v, u) = *middle;
+  // A bubble sort of all pixels at once, from the largest on until the middle.
+  std::vector<cv::Mat> sorted;
+  for (const cv::Mat& picture : pictures_) sorted.push_back(picture.clone());
+  cv::Mat lower;
+  for (std::size_t end = sorted.size(); end > sorted.size() / 2; --end) {
+    for (std::size_t n = 1; n < end; ++n) {
+      cv::min(sorted[n - 1], sorted[n], lower);
+      cv::max(sorted[n - 1], sorted[n], sorted[n]);
+      cv::swap(sorted[n - 1], lower);
     }
   }
-  return median;
+  return sorted[sorted.size() / 2];
 }
 
 std::string_view exposure_fault(const Picture& picture, const optics::Outline& outline) {

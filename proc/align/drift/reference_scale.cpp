@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "proc/align/limb_distance.h"
+
 namespace orbwatch::align {
 namespace {
 
@@ -42,13 +44,6 @@ double contrast(const PatchWindow& window) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * sum / count));
 }
 
-/// Distance from the outline's centre, share of its radius in that direction.
-double share_of_radius(const Outline& outline, const Vec2& arm) {
-  const double angle = optics::radians(outline.angle);
-  const double c = std::cos(angle), s = std::sin(angle);
-  return std::hypot((arm.u * c + arm.v * s) / outline.rx, (arm.v * c - arm.u * s) / outline.ry);
-}
-
 /// Standard deviation of the noise of a smoothed picture, from differences of neighbours
 /// (Immerkaer, 1996, with a median instead of the mean, as most of a picture has no edge).
 double smoothed_noise(const cv::Mat& picture) {
@@ -80,6 +75,7 @@ class Choice {
   Choice(const cv::Mat& picture, const Outline& outline, float saturated, int sectors)
       : picture_(picture),
         outline_(outline),
+        distance_(outline),
         saturated_(saturated),
         sectors_(sectors),
         noise_(smoothed_noise(picture)) {}
@@ -94,7 +90,7 @@ class Choice {
       for (int u = kMargin; u + Patch::kSide + kMargin < picture_.cols; u += kPatchStep) {
         const PatchCandidate candidate = at({u, v});
         if (candidate.texture <= 0) continue;
-        const double share = share_of_radius(outline_, candidate.arm);
+        const double share = distance_.of(candidate.arm);
         if (share > kPatchRings.back()) {
           const auto cell = static_cast<std::size_t>(v * kCells / picture_.rows * kCells +
                                                      u * kCells / picture_.cols);
@@ -133,7 +129,7 @@ class Choice {
     constexpr double kMiddle = (Patch::kSide - 1) / 2.0;
     PatchCandidate candidate{
         corner, {corner.x + kMiddle - outline_.centre.u, corner.y + kMiddle - outline_.centre.v}};
-    const bool is_ball = share_of_radius(outline_, candidate.arm) <= kPatchRings.back();
+    const bool is_ball = distance_.of(candidate.arm) <= kPatchRings.back();
     double uu = 0, uv = 0, vv = 0;
     int saturated = 0;
     for (int y = 0; y < Patch::kSide; y += 2) {
@@ -158,8 +154,8 @@ class Choice {
   }
 
   bool counts(bool is_ball, const Vec2& arm) const {
-    const double share = share_of_radius(outline_, arm);
-    return is_ball ? share < kInside : share > kOutside;
+    const double squared = distance_.squared(arm);
+    return is_ball ? squared < kInside * kInside : squared > kOutside * kOutside;
   }
 
   void add(const std::optional<PatchCandidate>& candidate, bool is_ball, PatchGroup& group) const {
@@ -178,6 +174,7 @@ class Choice {
 
   const cv::Mat& picture_;
   Outline outline_;
+  LimbDistance distance_;
   float saturated_;
   int sectors_;
   double noise_;

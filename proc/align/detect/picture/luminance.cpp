@@ -23,7 +23,11 @@ cv::Mat grey(const cv::Mat& samples, int code) {
 }  // namespace
 
 cv::Mat luminance_of(const Picture& picture) {
-  const cv::Mat samples = first_plane(picture);
+  return luminance_of(picture, {0, 0, picture.width, picture.height});
+}
+
+cv::Mat luminance_of(const Picture& picture, const cv::Rect& part) {
+  const cv::Mat samples = first_plane(picture)(part);
   switch (picture.format) {
     case PixelFormat::Yuyv:
       return channel(samples, 0);

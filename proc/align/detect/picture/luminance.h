@@ -11,4 +11,7 @@ namespace orbwatch::align {
 /// one of its planes. Reentrant.
 cv::Mat luminance_of(const Picture& picture);
 
+/// The same for a part within the picture. Reentrant.
+cv::Mat luminance_of(const Picture& picture, const cv::Rect& part);
+
 }  // namespace orbwatch::align

@@ -80,6 +80,26 @@ TEST(Focus, IsTheReflectionsBlurAtAnyExposure) {
   }
 }
 
+TEST(Focus, OfTheReflectionAlone) {
+  const cv::Mat pixels = blurred(1.2);
+  const auto alone = reflection_blur(picture_of_mat(pixels), kBlurredLimb);
+  const auto focus = measure_focus(picture_of_mat(pixels), kBlurredLimb);
+  ASSERT_TRUE(alone && focus && focus->reflection);
+  EXPECT_EQ(alone->sigma, focus->reflection->sigma);
+  EXPECT_EQ(alone->edges, focus->reflection->edges);
+  const cv::Mat dark(300, 300, CV_8U, cv::Scalar(0));
+  EXPECT_FALSE(reflection_blur(picture_of_mat(dark), kBlurredLimb));
+  EXPECT_FALSE(reflection_blur(picture_of_mat(pixels), {{1500, 150}, 130, 130, 0}));
+}
+
+TEST(Focus, LooksAtNoEdgesThatAreOverexposed) {
+  // The brightest patches are cut off: their edges are too sharp.
+  const cv::Mat bright = blurred(1.2, 1.5);
+  const auto blur = reflection_blur(picture_of_mat(bright), kBlurredLimb);
+  ASSERT_TRUE(blur) << blur.error().message;
+  EXPECT_NEAR(blur->sigma, std::hypot(1.2, 0.29), 0.15);
+}
+
 TEST(Focus, SaysThatTheBallIsSharpAndItsReflectionIsNot) {
   const cv::Mat wide = blurred(2.5);
   cv::Mat picture = blurred(0.6);

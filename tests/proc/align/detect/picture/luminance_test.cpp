@@ -39,6 +39,9 @@ TEST(Luminance, OfEveryFormat) {
           format.bits > 8 ? luminance.at<std::uint16_t>(3, u) : luminance.at<std::uint8_t>(3, u);
       EXPECT_EQ(sample, u) << format.name;
     }
+    const cv::Mat part = luminance_of(columns.picture, {3, 1, 4, 2});
+    EXPECT_EQ(part.size(), cv::Size(4, 2)) << format.name;
+    EXPECT_EQ(cv::norm(part, luminance({3, 1, 4, 2}), cv::NORM_INF), 0) << format.name;
   }
 }
 
