@@ -118,7 +118,10 @@ Consensus consensus(const Sighting& sighting, std::span<const PictureMotion> sta
     is_first = false;
   };
   for (const PictureMotion& start : starts) consider(start);
-  consider(fit.median_shift());
+  // None can be better by a fifth when nearly all agree.
+  if (static_cast<double>(sighting.found.size()) > kBetter * best.agreeing) {
+    consider(fit.median_shift());
+  }
   return best;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kSide = PatchWindow::kSide;
 /// Side including the pixel around that smoothing needs.
-constexpr int kRawSide = kSide + 2;
+constexpr int kRawSide = BrightnessReader::kSide;
+static_assert(kRawSide == kSide + 2);
 /// Share of a format's range.
 constexpr double kSaturated = 0.98;
 /// Saturated pixels that make a window unusable.
@@ -26,21 +27,14 @@ cv::Mat smoothed(const cv::Mat& picture) {
   return out;
 }
 
-/// Samples along a side of a square of `scale` pixels: more would cost time without more
-/// information.
-constexpr int kDense = 2;
-
-/// The brightness of a part of a picture at the scale; reads only the first plane.
-cv::Mat reduced_luminance(const Picture& picture, const cv::Rect& part, int scale) {
-  const PixelFormatInfo& facts = info(picture.format);
-  const cv::Size size(part.width / scale, part.height / scale);
+/// The brightness of a picture at the scale; reads only the first plane.
+cv::Mat reduced_luminance(const Picture& picture, int scale) {
+  constexpr int kDense = BrightnessReader::kDense;
+  const cv::Size size(picture.width / scale, picture.height / scale);
   const int skip = std::max(1, scale / kDense);
   Picture sparse = picture;
-  sparse.width = part.width;
-  sparse.height = part.height / skip;
-  sparse.planes[0].data += part.y * picture.planes[0].stride + static_cast<std::ptrdiff_t>(part.x) *
-                                                                   facts.channels() *
-                                                                   facts.bytes_per_sample();
+  sparse.width = size.width * scale;
+  sparse.height = size.height * scale / skip;
   sparse.planes[0].stride *= skip;
   cv::Mat luminance = luminance_of(sparse), reduced;
   if (scale == 1) return luminance;
@@ -65,8 +59,7 @@ float saturation(PixelFormat format) {
 }
 
 cv::Mat smoothed_luminance(const Picture& picture, int scale) {
-  const cv::Rect whole(0, 0, picture.width / scale * scale, picture.height / scale * scale);
-  return smoothed(reduced_luminance(picture, whole, scale));
+  return smoothed(reduced_luminance(picture, scale));
 }
 
 cv::Mat halved(const cv::Mat& picture) {
@@ -77,15 +70,12 @@ cv::Mat halved(const cv::Mat& picture) {
 }
 
 bool WindowReader::read(const Picture& picture, cv::Point corner, PatchWindow& window) {
-  const cv::Rect part(scale_ * (corner.x - 1), scale_ * (corner.y - 1), scale_ * kRawSide,
-                      scale_ * kRawSide);
-  if ((part & cv::Rect(0, 0, picture.width, picture.height)) != part) return false;
-  reduced_luminance(picture, part, scale_).convertTo(samples_, CV_32F);
+  if (!reader_.read(picture, (corner - cv::Point(1, 1)) * scale_, samples_)) return false;
   std::array<float, kRawSide> column;
   for (int v = 0; v < kSide; ++v) {
-    const float* const above = samples_.ptr<float>(v);
-    const float* const middle = samples_.ptr<float>(v + 1);
-    const float* const below = samples_.ptr<float>(v + 2);
+    const float* const above = samples_.data() + v * kRawSide;
+    const float* const middle = above + kRawSide;
+    const float* const below = middle + kRawSide;
     for (std::size_t u = 0; u < kRawSide; ++u) {
       column[u] = 0.25F * (above[u] + below[u]) + 0.5F * middle[u];
     }

@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "proc/align/drift/brightness_reader.h"
 #include "proc/align/drift/patch.h"
 #include "proc/image/picture.h"
 
@@ -22,7 +23,7 @@ float saturation(PixelFormat format);
 /// buffers.
 class WindowReader {
  public:
-  explicit WindowReader(int scale) : scale_(scale) {}
+  explicit WindowReader(int scale) : scale_(scale), reader_(scale) {}
 
   /// Reads the window whose first pixel is `corner` at the scale; false when it is not within the
   /// picture.
@@ -30,7 +31,8 @@ class WindowReader {
 
  private:
   int scale_;
-  cv::Mat samples_;
+  BrightnessReader reader_;
+  BrightnessReader::Square samples_{};
 };
 
 /// Reads a window of a picture that is smoothed as a whole; false when it is not within.
