@@ -27,6 +27,10 @@ constexpr double kFewestAgreeing = 8;
 constexpr int kFewestOctants = 4;
 /// The same for the surroundings.
 constexpr double kFewestAround = 4;
+/// One of so many patches is glanced at; the sectors are no multiple of it, so that those lie all
+/// around.
+constexpr std::size_t kGlancedOfPatches = 5;
+constexpr std::size_t kFewestGlanced = 4;
 
 bool is_trusted(const Consensus& ball, double share) {
   return ball.share() >= share && ball.agreeing >= kFewestAgreeing &&
@@ -67,6 +71,8 @@ BallTracker::BallTracker(const cv::Mat& reference, const Outline& outline, float
     scales_.push_back(reference_scale(picture, here, saturated, sectors));
   }
   search_.emplace_back(picture, here);
+  const PatchGroup& ball = scales_.front().ball;
+  for (std::size_t n = 0; n < ball.size(); n += kGlancedOfPatches) glanced_.push_back(ball[n]);
 }
 
 bool BallTracker::has_texture() const {
@@ -110,6 +116,22 @@ std::optional<PictureMotion> BallTracker::find(const Picture& picture) {
   reason_ = {};
   last_ = *found;
   return magnified(last_, scale_);
+}
+
+std::optional<double> BallTracker::distance_from(const Picture& picture,
+                                                 const PictureMotion& motion) {
+  const PictureMotion here = magnified(motion, 1.0 / scale_);
+  find_patches(glanced_, here, reading(picture), sighting_);
+  const std::size_t found = sighting_.found.size();
+  if (found < kFewestGlanced || 2 * found < glanced_.size()) return std::nullopt;
+  distances_.clear();
+  for (const auto& [arm, shift] : sighting_.found) {
+    const Vec2 way = here.at(arm);
+    distances_.push_back(std::hypot(shift.shift.u - way.u, shift.shift.v - way.v));
+  }
+  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(found / 2);
+  std::ranges::nth_element(distances_, middle);
+  return scale_ * *middle;
 }
 
 std::optional<PictureMotion> BallTracker::search(const Picture& picture) {

@@ -33,6 +33,10 @@ class BallTracker {
   /// with the reason().
   std::optional<PictureMotion> find(const Picture& picture);
 
+  /// A cheap look at a few patches: the median of their distances from where `motion` puts them, px
+  /// of the picture; nullopt when less than half of them are found.
+  std::optional<double> distance_from(const Picture& picture, const PictureMotion& motion);
+
   /// Static text for an operator.
   std::string_view reason() const { return reason_; }
 
@@ -48,9 +52,11 @@ class BallTracker {
 
   int scale_;                           ///< pixels of the picture per pixel of the finest scale
   std::vector<ReferenceScale> scales_;  ///< the finest first, each half of the one before
+  PatchGroup glanced_;                  ///< some of the ball's, spread over it, at the finest
   std::vector<ShiftSearch> search_;     ///< one, at the coarsest
   WindowReader reader_;
   Sighting sighting_;
+  std::vector<double> distances_;
   PictureMotion last_;  ///< at the finest scale
   int until_search_ = 0;
   std::string_view reason_;

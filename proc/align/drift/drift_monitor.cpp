@@ -32,6 +32,11 @@ constexpr Time kPauseOfReferences = std::chrono::seconds(5);
 /// Distance of a jump from the mean: warning limits, standard deviations of single frames, and
 /// pixels.
 constexpr double kJump = 4, kJumpSpreads = 6, kJumpPixels = 2;
+/// Time for which a picture that is like the ones before is not measured, less than a tenth of a
+/// second so that a camera's jitter does not lengthen it by a frame.
+constexpr Time kPauseOfMeasurements = std::chrono::milliseconds(90);
+/// Share of the warning limit up to which a picture is like the ones before.
+constexpr double kUnchanged = 0.5;
 /// Standard deviations of the mean by which a limit must be exceeded.
 constexpr double kSure = 2;
 /// Share of the radius up to which the error is in proportion.
@@ -121,8 +126,10 @@ class DriftMonitor::Impl {
   Result<DriftState> observe(const Picture& picture, Time time) {
     if (auto checked = check_size(picture); !checked) return tl::unexpected(checked.error());
     if (!tracker_ && !collect(picture, time)) return not_measured(state_.reason);
+    if (is_as_before(picture, time)) return state_;
     const auto motion = tracker_->find(picture);
     if (!motion) return not_measured(tracker_->reason());
+    measured_at_ = time;
     add(*motion, time);
     state_.reason = {};
     state_.motion = statistics_.mean() - origin_;
@@ -168,6 +175,20 @@ class DriftMonitor::Impl {
     state_.level = DriftLevel::NotMeasured;
     state_.reason = reason;
     return state_;
+  }
+
+  /// True: the ball was measured a moment ago, rests since then, and a glance shows it at its mean
+  /// place. Everything else is measured in its own frame: jumps, darkness, the way of a drift to
+  /// its limit, vibration, the first seconds.
+  bool is_as_before(const Picture& picture, Time time) {
+    const Time since = time - measured_at_;
+    const double alike = kUnchanged * limits_.warning;
+    const bool may_wait = state_.level != DriftLevel::NotMeasured && !is_settling_ &&
+                          since >= Time::zero() && since < kPauseOfMeasurements &&
+                          statistics_.is_complete() && statistics_.spread() <= alike;
+    if (!may_wait) return false;
+    const auto distance = tracker_->distance_from(picture, statistics_.mean());
+    return distance && view_error_.small({*distance, 0, 0, 0}) <= alike;
   }
 
   /// The ball's mean place counts as its origin until it has settled or jumped.
@@ -249,6 +270,7 @@ class DriftMonitor::Impl {
   Time collects_from_ = Time::min();
   std::optional<BallTracker> tracker_;
   std::optional<Time> first_time_;
+  Time measured_at_{};
   bool is_settling_ = true;
   int settled_ = 0;                     ///< frames
   PictureMotion origin_;                ///< against the reference picture

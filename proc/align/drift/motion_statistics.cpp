@@ -27,7 +27,7 @@ void MotionStatistics::add(Time time, const PictureMotion& motion) {
   motions_.push_back({time, motion});
   mean_ = {trimmed_mean(&PictureMotion::u), trimmed_mean(&PictureMotion::v),
            trimmed_mean(&PictureMotion::growth), trimmed_mean(&PictureMotion::roll)};
-  if (motions_.size() < kFewest) return;
+  if (!is_complete()) return;
   double squares = 0;
   for (const Timed& timed : motions_) {
     const double apart = view_error_.small(timed.motion - mean_);

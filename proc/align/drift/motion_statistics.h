@@ -29,6 +29,8 @@ class MotionStatistics {
   void restart() { motions_.clear(); }
 
   bool empty() const { return motions_.empty(); }
+  /// True: there are enough motions for a mean and a spread.
+  bool is_complete() const { return motions_.size() >= kFewest; }
 
   /// Mean of each component, without its lowest and highest fifth.
   PictureMotion mean() const { return mean_; }

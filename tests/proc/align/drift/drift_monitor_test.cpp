@@ -116,6 +116,44 @@ TEST_F(DriftMonitorTest, RaisesAJumpInItsOwnFrameAndMeasuresItThere) {
   EXPECT_EQ(back.level, DriftLevel::Good) << "it is where it was";
 }
 
+TEST_F(DriftMonitorTest, MeasuresAStandingBallInOneOfThreeFrames) {
+  DriftState before = see(120, {}, {});
+  int measured = 0;
+  for (int n = 0; n < 60; ++n) {
+    const DriftState state = see(1, {}, {});
+    ASSERT_EQ(state.level, DriftLevel::Good);
+    const bool is_another = state.motion.u != before.motion.u ||
+                            state.motion.v != before.motion.v ||
+                            state.motion.growth != before.motion.growth;
+    measured += is_another ? 1 : 0;
+    before = state;
+  }
+  EXPECT_EQ(measured, 20);
+}
+
+TEST_F(DriftMonitorTest, SeesEverythingInItsOwnFrameAtAnyMoment) {
+  see(120, {}, {});
+  for (int pause = 20; pause < 24; ++pause) {
+    see(pause, {}, {});
+    EXPECT_EQ(see(1, {-17, 9}, {-17, 9}).level, DriftLevel::Alarm) << pause;
+    EXPECT_EQ(see(pause, {}, {}).level, DriftLevel::Good) << pause;
+    EXPECT_EQ(see(drawn_.at({}, {}, 0.01)).level, DriftLevel::NotMeasured) << pause;
+    EXPECT_EQ(see(1, {}, {}).level, DriftLevel::Good) << pause;
+  }
+}
+
+TEST_F(DriftMonitorTest, RaisesADriftWithinASecondAtAnyMoment) {
+  see(120, {}, {});
+  for (int pause = 60; pause < 64; ++pause) {
+    see(pause, {}, {});
+    int frames = 1;
+    const cv::Point2d way(0.3, 0);  // 0.5 degrees
+    while (see(1, way, way).level < DriftLevel::Warning && frames < 40) ++frames;
+    EXPECT_LE(frames, 30) << pause;
+    see(60, {}, {});
+  }
+}
+
 TEST_F(DriftMonitorTest, AJumpOfTheBallAlone) {
   see(40, {}, {});
   const DriftState state = see(1, {-17, 9}, {});
