@@ -288,6 +288,8 @@ template <int bytes>
 void store_row(__m128i row, std::uint8_t* out) {
   if constexpr (bytes == 16) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out), row);
+  } else if constexpr (bytes == 4) {
+    _mm_storeu_si32(out, row);
   } else {
     _mm_storeu_si64(out, row);
     if constexpr (bytes == 12) _mm_storeu_si32(out + 8, _mm_srli_si128(row, 8));
@@ -364,6 +366,7 @@ void fill_rows(const TileJob& job) {
 template <Layout layout>
 void fill_tile(const TileJob& job) {
   if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks>(job);
+  if (job.map.blocks_x == 1) return fill_rows<layout, 1>(job);
   fill_rows<layout, kMostBlocks / 2>(job);
 }
 

@@ -447,6 +447,9 @@ void fill_rows(const TileJob& job) {
 template <Layout layout, Kept kept = Kept::All>
 void fill_tile(const TileJob& job) {
   if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks, kept>(job);
+  if constexpr (kept == Kept::All) {
+    if (job.map.blocks_x == 1) return fill_rows<layout, 1, kept>(job);
+  }
   fill_rows<layout, kMostBlocks / 2, kept>(job);
 }
 

@@ -52,12 +52,12 @@ inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
 struct BlockMap {
   WindowWalk windows;
   LaneShape lanes;
-  int blocks_x;  ///< 2 or 4
+  int blocks_x;  ///< 1, 2 or 4
   int blocks_y;  ///< 1 to 8
 
-  /// Sets the map to a patch's first pixels, 8 or 16 columns and a multiple of 4 rows, at most 32.
-  /// False, and then undefined, when the patch is too steep or curved: a block would not fit into
-  /// its window. `rounding`: see rounding().
+  /// Sets the map to a patch's first pixels, 4, 8 or 16 columns and a multiple of 4 rows, at
+  /// most 32. False, and then undefined, when the patch is too steep or curved: a block would not
+  /// fit into its window. `rounding`: see rounding().
   [[nodiscard]] bool fit(const Patch& patch, int columns, int rows, const Uv64& rounding);
 
   /// Offset of every coordinate, Q24, that rounds truncated places: half of their last bit, and `u`

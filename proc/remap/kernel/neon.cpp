@@ -155,13 +155,14 @@ class Windows {
   [[gnu::always_inline]] static int64x2_t load(const Uv64& pair) {
     return reinterpret_cast<int64x2_t>(pair);
   }
-  /// Multiplies by (blocks - 1); half_back() by (blocks - 2) / 2.
+  /// Multiplies by (blocks - 1); half_back() by (blocks - 2) / 2, or by 0.
   [[gnu::always_inline]] static int64x2_t back(int64x2_t step) {
-    static_assert(blocks == 2 || blocks == 4);
+    static_assert(blocks == 1 || blocks == 2 || blocks == 4);
+    if constexpr (blocks == 1) return vdupq_n_s64(0);
     return blocks == 2 ? step : vaddq_s64(vaddq_s64(step, step), step);
   }
   [[gnu::always_inline]] static int64x2_t half_back(int64x2_t step) {
-    return blocks == 2 ? vdupq_n_s64(0) : step;
+    return blocks <= 2 ? vdupq_n_s64(0) : step;
   }
 
   int64x2_t value_, step_, growth_;
@@ -355,6 +356,7 @@ void fill_rows(const TileJob& job) {
 template <Layout layout>
 void fill_tile(const TileJob& job) {
   if (job.map.blocks_x == 4) return fill_rows<layout, 4>(job);
+  if (job.map.blocks_x == 1) return fill_rows<layout, 1>(job);
   fill_rows<layout, 2>(job);
 }
 

@@ -163,6 +163,18 @@ using Samples = std::array<uint8x16_t, kRegisters<layout>>;
   store_second(out + 3 * stride, lower);
 }
 
+/// Stores a single block with one byte per pixel.
+[[gnu::always_inline]] inline void store_blocks(
+    const std::array<std::array<uint8x16_t, 1>, 1>& blocks, std::uint8_t* out,
+    std::ptrdiff_t stride) {
+  const uint32x4_t rows = vreinterpretq_u32_u8(blocks[0][0]);
+  const auto at = [&](int row) { return reinterpret_cast<std::uint32_t*>(out + row * stride); };
+  vst1q_lane_u32(at(0), rows, 0);
+  vst1q_lane_u32(at(1), rows, 1);
+  vst1q_lane_u32(at(2), rows, 2);
+  vst1q_lane_u32(at(3), rows, 3);
+}
+
 /// Stores two adjacent blocks with one byte per pixel.
 [[gnu::always_inline]] inline void store_blocks(
     const std::array<std::array<uint8x16_t, 1>, 2>& blocks, std::uint8_t* out,

@@ -157,7 +157,7 @@ void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, st
 
 void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane& target) const {
   const auto sample = [&](const Patch& map, const SourcePlane& source, const TargetPlane& to) {
-    if (!reading.in_windows || !has_blocks() || to.columns < 2 * kBlock) {
+    if (!reading.in_windows || !has_blocks() || to.columns < kBlock) {
       sample_points(*kernel_, sampling_.layout, map, source, to);
     } else if (!sample_blocks(map, source, to)) {
       sample_steep(map, source, to);
@@ -173,13 +173,15 @@ void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane
 }
 
 /// Samples blocks that do not fit their windows but may do so at half the step, along one axis or
-/// both.
+/// both; not worth it for a single block in a row.
 void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
                                 const TargetPlane& target) const {
-  prefetch_beside(target, tile_bytes_);
-  if (!sample_half_rows(patch, source, target) && !sample_half_columns(patch, source, target)) {
-    sample_points(*kernel_, sampling_.layout, patch, source, target);
+  if (target.columns >= 2 * kBlock) {
+    prefetch_beside(target, tile_bytes_);
+    if (sample_half_rows(patch, source, target)) return;
+    if (sample_half_columns(patch, source, target)) return;
   }
+  sample_points(*kernel_, sampling_.layout, patch, source, target);
 }
 
 /// Samples with a kernel that keeps half of the pixels of a `fine` target. False: they do not fit

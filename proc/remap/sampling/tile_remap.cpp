@@ -142,10 +142,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
     sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets);
     return convert();
   }
-  // A curved map is steep: unless averaged, hardly a cell fits windows.
-  const Reading in_cells{reading.averaged, reading.mip_level,
-                         reading.in_windows && reading.averaged};
-  const auto sample_cells = [&](const auto& cells) { sample(cells, in_cells, targets); };
+  const auto sample_cells = [&](const auto& cells) { sample(cells, reading, targets); };
   if (smooth && grid_.visit_cells(tile, sample_cells)) return convert();
   CoordinateTile coordinates = grid_.pixels(tx, ty);
   if (!smooth) round_to_pixels(coordinates);
