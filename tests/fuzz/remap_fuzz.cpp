@@ -63,14 +63,16 @@ double depth(const RemapScene& scene, const Vec2& p) {
   return std::min({p.u + 0.5, p.v + 0.5, right - p.u, bottom - p.v});
 }
 
-/// Largest allowed distance of a pixel from the exact map, px. The curvature of a map between the
-/// grid's nodes is an estimate: of a thousand views, all of them extreme, one has pixels at 1.6
-/// times the tolerance.
+/// Largest allowed distance of a pixel from the exact map, px of its tile's mip level. The
+/// curvature of a map between the grid's nodes is an estimate: of a thousand views, all of them
+/// extreme, one has pixels at 1.6 times the tolerance.
 constexpr double kFarthest = 3 * remap::kTolerance;
 
-bool agree(const RemapScene& scene, const Coordinate& mine, const std::optional<Vec2>& truth) {
-  if (!remap::is_defined(mine)) return !truth || depth(scene, *truth) < kFarthest;
-  return truth && distance(place(mine), *truth) < kFarthest && depth(scene, *truth) > -kFarthest;
+bool agree(const RemapScene& scene, const Coordinate& mine, const std::optional<Vec2>& truth,
+           int level) {
+  const double farthest = kFarthest * (1 << level);
+  if (!remap::is_defined(mine)) return !truth || depth(scene, *truth) < farthest;
+  return truth && distance(place(mine), *truth) < farthest && depth(scene, *truth) > -farthest;
 }
 
 void check_pixel(const RemapScene& scene, int x, int y) {
@@ -78,8 +80,8 @@ void check_pixel(const RemapScene& scene, int x, int y) {
   const Coordinate mine =
       scene.grid.row(tx, ty, y % remap::kTile)[static_cast<std::size_t>(x % remap::kTile)];
   const auto truth = exact(scene, x, y);
-  if (agree(scene, mine, truth) || is_on_an_edge(scene, x, y)) return;
   const remap::Tile tile = scene.grid.tile(tx, ty);
+  if (agree(scene, mine, truth, tile.level) || is_on_an_edge(scene, x, y)) return;
   stop("pixel " + std::to_string(x) + ' ' + std::to_string(y) + " is " +
        (remap::is_defined(mine) ? "at " + text(place(mine)) : "undefined") + ", not " +
        (truth ? "at " + text(*truth) : "undefined") + "; tile of kind " +

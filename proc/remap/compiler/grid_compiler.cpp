@@ -162,7 +162,9 @@ std::optional<Tile> CoordinateGrid::Compiler::split_tile(int tx, int ty, const S
   for (int side = 0; side < 2; ++side) {
     const Place place{tx, ty, side == 0 ? first : second, false};
     const auto nodes = stencil(place);
-    if (!nodes || !is_close(*nodes, place) || !is_inside(Patch(*nodes))) return std::nullopt;
+    if (!nodes || !is_close(*nodes, place) || !is_inside(Patch(*nodes), level_of(*nodes))) {
+      return std::nullopt;
+    }
     split.sides[side] = *nodes;
   }
   Tile tile;

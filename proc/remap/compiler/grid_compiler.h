@@ -54,7 +54,7 @@ class CoordinateGrid::Compiler {
   Tile tile_of_surfaces(int tx, int ty, const Surfaces& surfaces);
   std::optional<Tile> split_tile(int tx, int ty, const Surfaces& surfaces);
   std::optional<Tile> fine_tile(const Place& place);
-  bool follows_the_map(const CoordinateTile& pixels, const Place& place) const;
+  bool follows_the_map(const CoordinateTile& pixels, const Place& place, int level) const;
   std::optional<Tile> curved_tile(const Stencil& nodes, double fourth) const;
   template <int Cell>
   std::optional<Tile> tile_of_cells(TileKind kind, const FineTile<Cell>& fine, double fourth) const;
@@ -66,7 +66,7 @@ class CoordinateGrid::Compiler {
   bool is_close(const Stencil& stencil, const Place& place) const;
   double fourth_order_part(const Stencil& stencil, const Place& place) const;
   double curve_error(const Place& place) const;
-  bool is_inside(const Patch& patch) const;
+  bool is_inside(const Patch& patch, int level) const;
   bool is_interior(const Patch& patch, int level) const;
 
   CoordinateGrid& grid_;

@@ -125,10 +125,10 @@ void PlainTiles::classify(int tx, int ty, Levels& levels) const {
     const float y2 = u.along_y[k] * u.along_y[k] + v.along_y[k] * v.along_y[k];
     const float step2 = std::max(x2, y2) * (1 / (kExtent * kExtent));
     const std::int32_t level = level_of_step2(step2);
-    const float scale = scale_of_step2(step2) * kOne;
+    const float factor = scale_of_step2(step2), scale = factor * kOne;
     const float before = kInteriorBefore * scale, beyond = kInteriorBeyond * scale;
     const float high_u = width * kOne - beyond, high_v = height * kOne - beyond;
-    const bool plain = (error < static_cast<float>(kClose)) & (differ[k] == 0) &
+    const bool plain = (error < static_cast<float>(kClose) * factor) & (differ[k] == 0) &
                        (u.low[k] >= before) & (v.low[k] >= before) & (u.high[k] <= high_u) &
                        (v.high[k] <= high_v) & (u.span[k] <= kSpan) & (v.span[k] <= kSpan);
     levels[k] = plain ? level : kNotPlain;

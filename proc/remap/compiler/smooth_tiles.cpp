@@ -15,6 +15,7 @@ namespace {
 
 // Marks a node that has not been evaluated on a surface yet.
 constexpr std::int32_t kUnknown = kOutside + 1;
+constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 
 /// Bound of the fourth-order error: the sum of the largest along each axis.
 double fourth_order_error(const FineTile<8>& fine) {
@@ -80,7 +81,8 @@ Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
 std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Stencil& nodes, int tx,
                                                          int ty) const {
   const Patch patch(nodes);
-  const SourceExtent u(grid_.source_width_), v(grid_.source_height_);
+  const int level = level_of(nodes);
+  const SourceExtent u(grid_.source_width_, level), v(grid_.source_height_, level);
   const auto [low, high] = patch.range();
   Tile tile;
   if (u.surely_misses(low.u, high.u) || v.surely_misses(low.v, high.v)) {
@@ -88,9 +90,9 @@ std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Stencil& nodes, i
     return tile;
   }
   tile.kind = TileKind::Patch;
-  tile.level = level_of(nodes);
-  tile.interior = is_interior(patch, tile.level);
-  if (tile.interior || is_inside(patch)) return tile;
+  tile.level = static_cast<std::uint8_t>(level);
+  tile.interior = is_interior(patch, level);
+  if (tile.interior || is_inside(patch, level)) return tile;
   // The part in the view may be inside although the patch is not.
   for (int y = 0; y < rows(ty); ++y) {
     PatchRow row = patch.row(y);
@@ -108,10 +110,10 @@ bool CoordinateGrid::Compiler::is_interior(const Patch& patch, int level) const 
          remap::is_interior(low.v, high.v, grid_.source_height_, level);
 }
 
-bool CoordinateGrid::Compiler::is_inside(const Patch& patch) const {
+bool CoordinateGrid::Compiler::is_inside(const Patch& patch, int level) const {
   const auto [low, high] = patch.range();
-  return SourceExtent(grid_.source_width_).surely_holds(low.u, high.u) &&
-         SourceExtent(grid_.source_height_).surely_holds(low.v, high.v);
+  return SourceExtent(grid_.source_width_, level).surely_holds(low.u, high.u) &&
+         SourceExtent(grid_.source_height_, level).surely_holds(low.v, high.v);
 }
 
 /// A third-order tile on the grid's nodes; nullopt when it is not close or not inside the source.
@@ -132,11 +134,11 @@ std::optional<Tile> CoordinateGrid::Compiler::tile_of_cells(TileKind kind,
   for (int j = 0; j < fine.kCells; ++j) {
     for (int i = 0; i < fine.kCells; ++i) {
       const Stencil cell = fine.stencil(i, j);
-      if (is_too_steep(cell, Cell) || third_order_error(cell) + fourth > kClose) {
+      if (is_too_steep(cell, Cell) || third_order_error(cell) + fourth > close_at(tile.level)) {
         return std::nullopt;
       }
       const Patch patch(cell);
-      if (!is_inside(patch)) return std::nullopt;
+      if (!is_inside(patch, tile.level)) return std::nullopt;
       tile.interior = tile.interior && is_interior(patch, tile.level);
     }
   }
@@ -163,10 +165,10 @@ std::optional<Tile> CoordinateGrid::Compiler::fine_tile(const Place& place) {
   if (!defined) return std::nullopt;
   const double fourth = fourth_order_error(fine);
   auto tile = tile_of_cells(TileKind::Fine, fine, fourth);
-  if (!tile || !follows_the_map(fine.pixels(), place)) {
+  if (!tile || !follows_the_map(fine.pixels(), place, tile->level)) {
     const FineTile<4> curved = remap::curved_tile(fine);
     tile = tile_of_cells(TileKind::CurvedFine, curved, fourth + mixed_error(fine));
-    if (!tile || !follows_the_map(curved.pixels(), place)) return std::nullopt;
+    if (!tile || !follows_the_map(curved.pixels(), place, tile->level)) return std::nullopt;
   }
   tile->index = static_cast<std::uint32_t>(grid_.fine_.size());
   grid_.fine_.push_back(fine);
@@ -175,8 +177,8 @@ std::optional<Tile> CoordinateGrid::Compiler::fine_tile(const Place& place) {
 
 /// True if a sample of a tile's pixels agrees with the exact map. Differences of the nodes do not
 /// bound the error of maps that need finer nodes.
-bool CoordinateGrid::Compiler::follows_the_map(const CoordinateTile& pixels,
-                                               const Place& place) const {
+bool CoordinateGrid::Compiler::follows_the_map(const CoordinateTile& pixels, const Place& place,
+                                               int level) const {
   // Samples are next to a node along an axis and halfway between nodes, where errors of odd and of
   // even order are largest.
   constexpr int kFirst = 1, kStep = 4;
@@ -192,7 +194,7 @@ bool CoordinateGrid::Compiler::follows_the_map(const CoordinateTile& pixels,
     const int x = kFirst + i * kStep, y = kFirst + j * kStep;
     if (x >= columns(place.tx) || y >= rows(place.ty)) return;
     const Coordinate truth = lanes.coordinates.at(k);
-    all_close &= is_defined(truth) && distance(truth, pixels[y][x]) < kClose;
+    all_close &= is_defined(truth) && distance(truth, pixels[y][x]) < close_at(level);
   });
   return all_close;
 }
@@ -223,11 +225,11 @@ Coordinate CoordinateGrid::Compiler::extended_node(int surface, int i, int j) {
 /// True if a patch on these nodes is within the tolerance everywhere in the tile.
 bool CoordinateGrid::Compiler::is_close(const Stencil& nodes, const Place& place) const {
   if (is_too_steep(nodes, kTile)) return false;
-  const double third = third_order_error(nodes);
-  return third < kClose && third + fourth_order_part(nodes, place) < kClose;
+  const double third = third_order_error(nodes), close = close_at(level_of(nodes));
+  return third < close && third + fourth_order_part(nodes, place) < close;
 }
 
-/// The part of the error that third_order_error() does not include.
+/// The part of the error that third_order_error() does not include; not finite where unknown.
 double CoordinateGrid::Compiler::fourth_order_part(const Stencil& nodes, const Place& place) const {
   const auto [tx, ty, surface, uniform] = place;
   // Uses five nodes in a row if the grid has them on one surface.
@@ -243,7 +245,7 @@ double CoordinateGrid::Compiler::fourth_order_part(const Stencil& nodes, const P
   // This part is largest in the tile's middle, where the third-order error vanishes.
   constexpr int kMiddle = kTile / 2;
   const Coordinate truth = map_.on_surface(surface, tx * kTile + kMiddle, ty * kTile + kMiddle);
-  return is_defined(truth) ? distance(truth, Patch(nodes).at(kMiddle, kMiddle)) : kTolerated;
+  return is_defined(truth) ? distance(truth, Patch(nodes).at(kMiddle, kMiddle)) : kUnknownError;
 }
 
 /// Bound of a curved tile's error: fourth order along rows and columns of nodes, the worst of those
@@ -273,7 +275,6 @@ double CoordinateGrid::Compiler::curve_error(const Place& place) const {
       along_y = std::max(along_y, error(tx + side, ty - before, 0, 1).value_or(-1));
     }
   }
-  constexpr double kUnknownError = std::numeric_limits<double>::infinity();
   if (along_x < 0 || along_y < 0) return kUnknownError;
   double mixed = 0;
   for (int j = ty; j <= ty + 1; ++j) {

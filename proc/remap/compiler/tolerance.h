@@ -13,9 +13,12 @@ namespace orbwatch::remap {
 
 inline constexpr double kOnePixel = 1 << kFractionBits;
 inline constexpr double kTolerated = kTolerance * kOnePixel;
-/// Largest error of a patch estimated from its nodes: the rest of the tolerance is for terms of
-/// higher order than the fourth.
+/// Largest error of a patch of level 0 estimated from its nodes: the rest of the tolerance is for
+/// terms of higher order than the fourth.
 inline constexpr double kClose = 0.85 * kTolerated;
+/// The same for a tile of that mip level, where neighbouring pixels are 2^level source pixels and
+/// more apart.
+constexpr double close_at(int level) { return kClose * (1 << level); }
 
 /// Largest share of five nodes' fourth difference that the fourth-order error can be: the maximum
 /// of Lagrange's t (1-t) (1+t) (2-t) / 24.
@@ -40,19 +43,22 @@ inline double fourth_order_error(const std::array<Coordinate, 5>& row) {
 /// half a pixel further.
 struct SourceExtent {
   static constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
-  static constexpr auto kMargin = static_cast<std::int32_t>(kTolerated);
   std::int32_t low = -kHalf;
   std::int32_t high;
+  std::int32_t margin;  ///< tolerance of the coordinates
 
-  explicit SourceExtent(int size) : high(((size - 1) << kFractionBits) + kHalf) {}
+  /// For coordinates of a tile of that mip level.
+  explicit SourceExtent(int size, int level = 0)
+      : high(((size - 1) << kFractionBits) + kHalf),
+        margin(static_cast<std::int32_t>(kTolerated) << level) {}
 
   bool holds(std::int32_t c) const { return c >= low && c <= high; }
   /// The same for coordinates that may be off by the tolerance.
   bool surely_holds(std::int32_t lowest, std::int32_t highest) const {
-    return lowest > low + kMargin && highest < high - kMargin;
+    return lowest > low + margin && highest < high - margin;
   }
   bool surely_misses(std::int32_t lowest, std::int32_t highest) const {
-    return highest < low - kMargin || lowest > high + kMargin;
+    return highest < low - margin || lowest > high + margin;
   }
 };
 

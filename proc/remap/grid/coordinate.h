@@ -11,7 +11,8 @@ namespace orbwatch::remap {
 inline constexpr int kTile = 16;
 /// Source coordinates are fixed point with this many fraction bits (Q13).
 inline constexpr int kFractionBits = 13;
-/// Largest error of the grid against the exact map, source pixels.
+/// Largest error of the grid against the exact map, in pixels of a tile's mip level: 2^level source
+/// pixels.
 inline constexpr double kTolerance = 1.0 / 64;
 
 /// A place in the source picture, Q13 pixels; or u is a marker instead.

@@ -19,8 +19,9 @@ namespace orbwatch::remap {
 
 /// The map from a view's pixels to one source's pixels, compiled so that the frame path needs
 /// neither trigonometry nor a map of full size. Every defined pixel is within kTolerance of the
-/// exact map by an estimate from its nodes; in unusual views (with few pixels, close to the limb)
-/// the estimate was up to 1.6 times too low. Immutable; reentrant.
+/// exact map, in pixels of its tile's mip level, by an estimate from its nodes; in unusual views
+/// (with few pixels, close to the limb) the estimate was up to 1.6 times too low. Immutable;
+/// reentrant.
 class CoordinateGrid {
  public:
   /// Evaluates the exact map at the tiles' corners, and more densely in tiles that an edge of the

@@ -47,7 +47,7 @@ std::optional<optics::Vec2> exact(const CoordinateGrid& grid, const ViewProjecti
   return pixel;
 }
 
-/// Compares every pixel of a grid with the exact map.
+/// Compares every pixel of a grid with the exact map, in pixels of the tile's mip level.
 Found compare(const CoordinateGrid& grid, const ViewProjection& view, const BallProjection& ball) {
   Found found;
   // Undefined pixels have no error that could jump.
@@ -67,7 +67,9 @@ Found compare(const CoordinateGrid& grid, const ViewProjection& view, const Ball
       current[x] = {nan, nan};
       if (!truth || !is_defined(mine)) continue;
       ++found.seen;
-      current[x] = {mine.u / kOnePixel - truth->u, mine.v / kOnePixel - truth->v};
+      const double scale = 1 << grid.tile(x / kTile, y / kTile).level;
+      current[x] = {(mine.u / kOnePixel - truth->u) / scale,
+                    (mine.v / kOnePixel - truth->v) / scale};
       found.worst = std::max(found.worst, std::hypot(current[x].u, current[x].v));
       if (x > 0) look_at_jump(current[x], current[x - 1]);
       look_at_jump(current[x], above[x]);
