@@ -17,6 +17,7 @@
 
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/look_up_neon.h"
+#include "proc/remap/kernel/neon_means.h"
 #include "proc/remap/kernel/neon_memory.h"
 #include "proc/remap/kernel/point_walk.h"
 #include "proc/remap/kernel/tile_mix.h"
@@ -310,11 +311,11 @@ template <int... n, class Body>
   (body(std::integral_constant<int, n>()), ...);
 }
 
-/// Fills a tile in rows of `blocks` blocks. The walking state is in local variables: g++ would keep
-/// members in memory.
-template <Layout layout, int blocks>
+/// Fills a tile in rows of `blocks` blocks, or with their means. The walking state is in local
+/// variables: g++ would keep members in memory.
+template <Layout layout, int blocks, Mean mean = Mean::None>
 void fill_rows(const TileJob& job) {
-  constexpr bool kInterleaves = (kRegisters<layout>) > 1;
+  constexpr bool kInterleaves = mean == Mean::None && (kRegisters<layout>) > 1;
   constexpr LayoutInfo kInfo = info(layout);
   // The assembly that reads windows declares no memory operand: order it after earlier stores.
   asm volatile("" : : : "memory");
@@ -345,8 +346,12 @@ void fill_rows(const TileJob& job) {
             v.next_block();
           }
         });
-    if constexpr (!kInterleaves) store_blocks(samples, out, out_stride);
-    out += kBlock * out_stride;
+    if constexpr (mean != Mean::None) {
+      store_means<mean>(samples, out, out_stride);
+    } else if constexpr (!kInterleaves) {
+      store_blocks(samples, out, out_stride);
+    }
+    out += rows_left(mean) * out_stride;
     windows.next_row();
     u.next_row();
     v.next_row();
@@ -359,6 +364,12 @@ void fill_tile(const TileJob& job) {
   if (job.map.blocks_x == 1) return fill_rows<layout, 1>(job);
   fill_rows<layout, 2>(job);
 }
+
+template <Mean mean>
+constexpr auto kMeans = by_layout<kKernelLayouts>([]<Layout layout>() -> Kernel::Tile {
+  if constexpr (info(layout).sample_bytes == 1) return fill_rows<layout, 4, mean>;
+  return nullptr;
+});
 
 using PointLanes [[gnu::vector_size(16)]] = std::uint32_t;
 
@@ -373,6 +384,9 @@ constexpr Kernel kKernel{
     .points = kPointWalks,
     .mix = mix_tiles,
     .look_up = look_up_colours,
+    .means_along_x = kMeans<Mean::AlongX>,
+    .means_along_y = kMeans<Mean::AlongY>,
+    .means_of_four = kMeans<Mean::OfFour>,
 };
 
 }  // namespace orbwatch::remap::neon

@@ -71,13 +71,51 @@ void average_tile(const OversampledTile& tile, const TargetPlane& out) {
   }
 }
 
+/// Means of pairs of samples, the second of which comes `distance` samples after the first.
+template <class Sample, int samples, bool along_x>
+[[gnu::always_inline]] inline void average_pairs(const std::uint8_t* from, std::ptrdiff_t distance,
+                                                 std::uint8_t* out, int columns) {
+  for (int x = 0; x < columns; ++x) {
+    for (int k = 0; k < samples; ++k) {
+      const int first = (along_x ? 2 * x : x) * samples + k;
+      const auto at = [from](std::ptrdiff_t n) {
+        return unsigned{read<Sample>(from + n * std::ptrdiff_t{sizeof(Sample)})};
+      };
+      const auto mean = static_cast<Sample>((at(first) + at(first + distance) + 1) / 2);
+      std::memcpy(out + (x * samples + k) * sizeof mean, &mean, sizeof mean);
+    }
+  }
+}
+
+template <Layout layout, bool along_x>
+void average_pairs_of_tile(const OversampledTile& tile, const TargetPlane& out) {
+  constexpr LayoutInfo kInfo = info(layout);
+  using Sample = std::conditional_t<kInfo.sample_bytes == 1, std::uint8_t, std::uint16_t>;
+  constexpr std::ptrdiff_t kStride = OversampledTile::stride(layout);
+  constexpr std::ptrdiff_t kDistance =
+      along_x ? kInfo.samples : kStride / std::ptrdiff_t{sizeof(Sample)};
+  const auto average_rows = [&](auto columns) __attribute__((always_inline)) {
+    const std::uint8_t* from = tile.samples.data();
+    std::uint8_t* to = out.data;
+    for (int y = 0; y < out.rows; ++y, from += along_x ? kStride : 2 * kStride, to += out.stride) {
+      average_pairs<Sample, kInfo.samples, along_x>(from, kDistance, to, columns);
+    }
+  };
+  if (out.columns == kTile) return average_rows(std::integral_constant<int, kTile>());
+  if (out.columns == kTile / 2) return average_rows(std::integral_constant<int, kTile / 2>());
+  average_rows(out.columns);
+}
+
 struct Filters {
+  using Tile = void (*)(const OversampledTile&, const TargetPlane&);
   BoxFilter row;
-  void (*tile)(const OversampledTile&, const TargetPlane&);
+  Tile tile, columns, rows;
 };
 template <std::size_t... n>
 constexpr auto filters_of(std::index_sequence<n...>) {
-  return std::array{Filters{filter_row<Layout{n}>, average_tile<Layout{n}>}...};
+  return std::array{Filters{filter_row<Layout{n}>, average_tile<Layout{n}>,
+                            average_pairs_of_tile<Layout{n}, true>,
+                            average_pairs_of_tile<Layout{n}, false>}...};
 }
 /// Filters, indexed by layout.
 constexpr auto kFilters = filters_of(std::make_index_sequence<kLayouts>());
@@ -124,8 +162,11 @@ void keep_even_columns(const TargetPlane& fine, int pixel_bytes, const TargetPla
   }
 }
 
-void average(const OversampledTile& tile, Layout layout, const TargetPlane& out) {
-  kFilters[static_cast<std::size_t>(layout)].tile(tile, out);
+void average(const OversampledTile& tile, Layout layout, TwiceAlong twice, const TargetPlane& out) {
+  assert(twice.x || twice.y);
+  const Filters& filters = kFilters[static_cast<std::size_t>(layout)];
+  if (twice.x && twice.y) return filters.tile(tile, out);
+  (twice.x ? filters.columns : filters.rows)(tile, out);
 }
 
 }  // namespace orbwatch::remap

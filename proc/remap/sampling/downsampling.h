@@ -24,7 +24,13 @@ void keep_even_rows(const TargetPlane& fine, int row_bytes, const TargetPlane& o
 /// 4) each, into the first kTile / 2 columns of `out`; as many rows as `out` has. Reentrant.
 void keep_even_columns(const TargetPlane& fine, int pixel_bytes, const TargetPlane& out);
 
-/// A tile with twice the pixels along either axis, in rows of 2 kTile pixels.
+/// The axes along which each pixel of a target is the mean of two samples, a quarter of a pixel
+/// before and behind it.
+struct TwiceAlong {
+  bool x = false, y = false;
+};
+
+/// A tile with twice the pixels along an axis or both, in rows of 2 kTile pixels.
 struct OversampledTile {
   static constexpr int kSide = 2 * kTile;
   alignas(64) std::array<std::uint8_t, kSide * kSide * 6> samples;
@@ -34,7 +40,8 @@ struct OversampledTile {
   }
 };
 
-/// Fills a target with the means of 2x2 pixels. Reentrant.
-void average(const OversampledTile& tile, Layout layout, const TargetPlane& out);
+/// Fills a target with the means of 2x2, 2x1 or 1x2 pixels, rounded to nearest. `twice`: one axis
+/// at least. Reentrant.
+void average(const OversampledTile& tile, Layout layout, TwiceAlong twice, const TargetPlane& out);
 
 }  // namespace orbwatch::remap

@@ -95,6 +95,28 @@ Patch at_half_steps(Patch patch) {
                   q.curve >> 2, q.cross >> 2});
 }
 
+Patch at_half_steps_along_x(Patch patch) {
+  const UvQuadratic& q = patch.axes();
+  const UvXy32 curve = q.curve >> (kSlopeShift + 2), cross = q.cross >> (kSlopeShift + 2);
+  const Uv64 before =
+      (Uv64{q.slope[0], q.slope[1]} << (kSlopeShift - 2)) - (Uv64{q.curve[0], q.curve[1]} >> 4);
+  return Patch(UvQuadratic{
+      q.value - before,
+      (q.slope >> UvXy32{1, 1, 0, 0}) - __builtin_shufflevector(curve, cross, 0, 1, 6, 7),
+      q.curve >> UvXy32{2, 2, 0, 0}, q.cross >> 1});
+}
+
+Patch at_half_steps_along_y(Patch patch) {
+  const UvQuadratic& q = patch.axes();
+  const UvXy32 curve = q.curve >> (kSlopeShift + 2), cross = q.cross >> (kSlopeShift + 2);
+  const Uv64 before =
+      (Uv64{q.slope[2], q.slope[3]} << (kSlopeShift - 2)) - (Uv64{q.curve[2], q.curve[3]} >> 4);
+  return Patch(UvQuadratic{
+      q.value - before,
+      (q.slope >> UvXy32{0, 0, 1, 1}) - __builtin_shufflevector(cross, curve, 0, 1, 6, 7),
+      q.curve >> UvXy32{0, 0, 2, 2}, q.cross >> 1});
+}
+
 Patch at_half_rows(Patch patch) {
   const UvQuadratic& q = patch.axes();
   return Patch(UvQuadratic{q.value, q.slope >> UvXy32{0, 0, 1, 1}, q.curve >> UvXy32{0, 0, 2, 2},
@@ -107,15 +129,19 @@ Patch at_half_columns(Patch patch) {
                            q.cross >> 1});
 }
 
-Patch moved(Patch patch, int x, int y) {
+UvXy32 slope_at(const Patch& patch, int x, int y) {
   const UvQuadratic& q = patch.axes();
   const UvXy32 along{x, x, y, y}, across{y, y, x, x};
+  return q.slope + ((2 * along * q.curve + across * q.cross) >> kSlopeShift);
+}
+
+Patch moved(Patch patch, int x, int y) {
+  const UvQuadratic& q = patch.axes();
   const auto there = [x, y](const Quadratic& axis) {
     return axis.value + x * (axis.x + x * axis.xx + y * axis.xy) + y * (axis.y + y * axis.yy);
   };
-  return Patch(UvQuadratic{Uv64{there(patch.u()), there(patch.v())},
-                           q.slope + ((2 * along * q.curve + across * q.cross) >> kSlopeShift),
-                           q.curve, q.cross});
+  return Patch(UvQuadratic{Uv64{there(patch.u()), there(patch.v())}, slope_at(patch, x, y), q.curve,
+                           q.cross});
 }
 
 Patch on_plane(Patch patch, const PlaneSampling& sampling) {

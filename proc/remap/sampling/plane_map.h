@@ -19,11 +19,18 @@ Patch in_steps(Patch patch, int bits);
 /// A patch in half steps: pixels 2 X and 2 X + 1 lie a quarter of a pixel before and behind X.
 Patch at_half_steps(Patch patch);
 
+/// The same along X, or along Y, alone.
+Patch at_half_steps_along_x(Patch patch);
+Patch at_half_steps_along_y(Patch patch);
+
 /// A patch in half steps along Y: row 2 Y is row Y.
 Patch at_half_rows(Patch patch);
 
 /// A patch in half steps along X: column 2 X is column X.
 Patch at_half_columns(Patch patch);
+
+/// The patch's slope at its pixel (x, y).
+UvXy32 slope_at(const Patch& patch, int x, int y);
 
 /// The patch relative to its pixel (x, y).
 Patch moved(Patch patch, int x, int y);

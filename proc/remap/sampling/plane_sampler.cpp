@@ -8,6 +8,7 @@
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/sampling/downsampling.h"
 #include "proc/remap/sampling/half_steps.h"
+#include "proc/remap/sampling/sharpened_picture.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -59,27 +60,9 @@ void prefetch_beside(const TargetPlane& target, int row_bytes) {
   }
 }
 
-/// Fills a target with means of four: `sample(left, top, plane)` is called for each part of the
-/// oversampled tile that has a tile's size and begins at its pixel (left, top), with that part's
-/// plane.
-template <class Sample>
-[[gnu::always_inline]] inline void oversample(Layout layout, const TargetPlane& target,
-                                              const Sample& sample) {
-  OversampledTile tile;
-  const int columns = 2 * target.columns, rows = 2 * target.rows;
-  const std::ptrdiff_t stride = OversampledTile::stride(layout);
-  if (columns <= kTile && rows <= kTile) {
-    sample(0, 0, TargetPlane{tile.samples.data(), stride, columns, rows});
-    return average(tile, layout, target);
-  }
-  for (int top = 0; top < rows; top += kTile) {
-    for (int left = 0; left < columns; left += kTile) {
-      std::uint8_t* const part =
-          tile.samples.data() + top * stride + left * info(layout).out_bytes();
-      sample(left, top, TargetPlane{part, stride, std::min(kTile, columns - left), kTile});
-    }
-  }
-  average(tile, layout, target);
+/// True for planes that SharpenedPicture replaces.
+bool may_be_sharpened(const PlaneSampling& sampling, PixelFormat format) {
+  return can_sharpen(format) && sampling.x == Siting::Full;
 }
 
 }  // namespace
@@ -114,11 +97,15 @@ PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Pictur
       columns_(kTile >> shift(sampling.x)),
       rows_(kTile >> shift(sampling.y)),
       pixel_bytes_(info(sampling.layout).out_bytes()),
-      tile_bytes_(columns_ * pixel_bytes_) {
+      tile_bytes_(columns_ * pixel_bytes_),
+      is_sharpened_(may_be_sharpened(sampling, pictures.front().format)) {
   if (number(sampling.layout) < kKernelLayouts) {
     block_kernel_ = kernel.tiles[number(sampling.layout)];
     even_columns_ = kernel.even_columns[number(sampling.layout)];
     even_rows_ = kernel.even_rows[number(sampling.layout)];
+    means_along_x_ = kernel.means_along_x[number(sampling.layout)];
+    means_along_y_ = kernel.means_along_y[number(sampling.layout)];
+    means_of_four_ = kernel.means_of_four[number(sampling.layout)];
   }
   for (std::size_t level = 0; level < std::min(pictures.size(), sources_.size()); ++level) {
     sources_[level] = plane_of_source(pictures[level], sampling);
@@ -147,29 +134,93 @@ void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, st
     return sample_points(*kernel_, sampling_.layout, places, black, sources_[0], target);
   }
   const HalfSteps steps(places, target.columns, target.rows);
-  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& plane) {
-    Places quarter;
-    steps.locate(left, top, quarter);
-    sample_job(*kernel_, sampling_.layout, {quarter, sources_[reading.mip_level], plane});
-  });
+  OversampledTile tile;
+  const int columns = 2 * target.columns, rows = 2 * target.rows;
+  const std::ptrdiff_t stride = OversampledTile::stride(sampling_.layout);
+  for (int top = 0; top < rows; top += kTile) {
+    for (int left = 0; left < columns; left += kTile) {
+      Places quarter;
+      steps.locate(left, top, quarter);
+      std::uint8_t* const part = tile.samples.data() + top * stride + left * pixel_bytes_;
+      sample_job(*kernel_, sampling_.layout,
+                 {quarter, sources_[reading.mip_level], {part, stride, kTile, kTile}});
+    }
+  }
+  average(tile, sampling_.layout, {true, true}, target);
   make_black(places, black, pixel_bytes_, target);
 }
 
 void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane& target) const {
-  const auto sample = [&](const Patch& map, const SourcePlane& source, const TargetPlane& to) {
-    if (!reading.in_windows || !has_blocks() || to.columns < kBlock) {
-      sample_points(*kernel_, sampling_.layout, map, source, to);
-    } else if (!sample_blocks(map, source, to)) {
-      sample_steep(map, source, to);
-    }
-  };
   const Patch map = on_plane(patch, sampling_);
-  if (!reading.averaged) return sample(map, sources_[0], target);
-  const Patch fine = at_half_steps(map);
-  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& quarter) {
-    const Patch part = left == 0 && top == 0 ? fine : moved(fine, left, top);
-    sample(part, sources_[reading.mip_level], quarter);
-  });
+  TwiceAlong twice = reading.averaged ? twice_along(map, target) : TwiceAlong();
+  if (!twice.x && !twice.y) {
+    const SourcePlane& source = sources_[reading.mip_level];
+    if (!reading.averaged || !reading.in_windows) {
+      return sample_once(map, reading.in_windows, source, target);
+    }
+    if (has_blocks() && sample_blocks(map, source, target)) return;
+    twice.y = true;  // at half steps blocks fit their windows
+  }
+  const Patch fine = !twice.y   ? at_half_steps_along_x(map)
+                     : !twice.x ? at_half_steps_along_y(map)
+                                : at_half_steps(map);
+  const int shift_x = twice.x ? 1 : 0;
+  for (int left = 0; left < target.columns << shift_x; left += kTile) {
+    TargetPlane part = target;
+    part.columns = std::min(target.columns, kTile >> shift_x);
+    part.data += (left >> shift_x) * pixel_bytes_;
+    sample_means(left == 0 ? fine : moved(fine, left, 0), twice, reading, part);
+  }
+}
+
+/// The axes along which a target's pixels are means of two samples.
+TwiceAlong PlaneSampler::twice_along(const Patch& patch, const TargetPlane& target) const {
+  // Less than a block would be sampled pixel by pixel.
+  if (is_sharpened_ || target.columns < kBlock || target.rows < kBlock) return {true, true};
+  const UvXy32 slope = slope_at(patch, target.columns / 2, target.rows / 2);
+  static_assert(kFractionBits + UvQuadratic::kSlopeBits == 20, "squares are Q40");
+  const auto is_long = [&](int u, int v) {
+    constexpr auto kMost = static_cast<std::int64_t>(kLongestStep * kLongestStep * (1 << 20)) << 20;
+    return std::int64_t{slope[u]} * slope[u] + std::int64_t{slope[v]} * slope[v] > kMost;
+  };
+  return {is_long(0, 1), is_long(2, 3)};
+}
+
+/// Samples each pixel of a target once.
+void PlaneSampler::sample_once(const Patch& patch, bool in_windows, const SourcePlane& source,
+                               const TargetPlane& target) const {
+  if (!in_windows || !has_blocks() || target.columns < kBlock || target.rows < kBlock) {
+    sample_points(*kernel_, sampling_.layout, patch, source, target);
+  } else if (!sample_blocks(patch, source, target)) {
+    sample_steep(patch, source, target);
+  }
+}
+
+/// Fills a target with means of the samples of `fine`, which are at most kTile wide.
+void PlaneSampler::sample_means(const Patch& fine, TwiceAlong twice, const Reading& reading,
+                                const TargetPlane& target) const {
+  const SourcePlane& source = sources_[reading.mip_level];
+  OversampledTile tile;
+  const TargetPlane samples{tile.samples.data(), OversampledTile::stride(sampling_.layout),
+                            target.columns << (twice.x ? 1 : 0), target.rows << (twice.y ? 1 : 0)};
+  BlockMap map;
+  if (reading.in_windows && has_blocks() && samples.columns == kTile &&
+      map.fit(fine, samples.columns, samples.rows, rounding_)) {
+    const Kernel::Tile means = !twice.y   ? means_along_x_
+                               : !twice.x ? means_along_y_
+                                          : means_of_four_;
+    if (means != nullptr) return means({map, source, target});
+    block_kernel_({map, source, samples});
+  } else if (samples.rows > kTile) {
+    TargetPlane half = target;
+    half.rows /= 2;
+    sample_means(fine, twice, reading, half);
+    half.data += half.rows * half.stride;
+    return sample_means(moved(fine, 0, samples.rows / 2), twice, reading, half);
+  } else {
+    sample_once(fine, reading.in_windows, source, samples);
+  }
+  average(tile, sampling_.layout, twice, target);
 }
 
 /// Samples blocks that do not fit their windows but may do so at half the step, along one axis or

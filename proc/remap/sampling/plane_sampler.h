@@ -13,6 +13,7 @@
 #include "proc/remap/kernel/kernel.h"
 #include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
+#include "proc/remap/sampling/downsampling.h"
 #include "proc/remap/sampling/plane_map.h"
 #include "proc/remap/sampling/plane_sampling.h"
 
@@ -27,13 +28,19 @@ void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
 void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
                    std::uint8_t black, const SourcePlane& source, const TargetPlane& target);
 
+/// The longest step along an axis, in pixels of the level that is read, for a single sample along
+/// it where pixels are means. A bilinear sample is itself a mean, and blurs: of a picture as a
+/// camera makes it, a single one is closer to the mean over the view's pixel up to this step, and
+/// two are beyond. Sharpening compensates that blur, so that sharpened planes need two.
+inline constexpr double kLongestStep = 1.7;
+
 /// Bytes that one request loads into the cache.
 inline constexpr int kCacheLine = 64;
 
 /// Parameters for reading a tile's source.
 struct Reading {
-  bool averaged = false;  ///< pixels are means of four samples: the view is smaller than the source
-  int mip_level = 0;      ///< level of the source that is sampled
+  bool averaged = false;    ///< pixels are means of several samples: the view is smaller
+  int mip_level = 0;        ///< level of the source that is sampled
   bool in_windows = false;  ///< kernels may read windows around every pixel, see Tile::interior
 };
 
@@ -81,6 +88,11 @@ class PlaneSampler {
     block_kernel_({map, source, target});
     return true;
   }
+  TwiceAlong twice_along(const Patch& patch, const TargetPlane& target) const;
+  void sample_once(const Patch& patch, bool in_windows, const SourcePlane& source,
+                   const TargetPlane& target) const;
+  void sample_means(const Patch& fine, TwiceAlong twice, const Reading& reading,
+                    const TargetPlane& target) const;
   bool keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
                  const TargetPlane& fine, const TargetPlane& kept) const;
   void sample_steep(const Patch& patch, const SourcePlane& source, const TargetPlane& target) const;
@@ -93,8 +105,10 @@ class PlaneSampler {
   const Kernel* kernel_ = nullptr;
   /// The kernel's functions for the layout; null if it has none.
   Kernel::Tile block_kernel_ = nullptr, even_columns_ = nullptr, even_rows_ = nullptr;
+  Kernel::Tile means_along_x_ = nullptr, means_along_y_ = nullptr, means_of_four_ = nullptr;
   Uv64 rounding_{};  ///< see BlockMap
   int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;
+  bool is_sharpened_ = false;                   ///< true if the plane may be sharpened
   std::array<SourcePlane, kMaxLevel> sources_;  ///< one per mip level
 };
 

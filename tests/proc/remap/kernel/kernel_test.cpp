@@ -126,6 +126,25 @@ class Trial {
     return kept;
   }
 
+  /// The means of `step_x` x `step_y` pixels of `out`, of 8 bit samples.
+  std::vector<std::uint8_t> means(const std::vector<std::uint8_t>& out, int step_x,
+                                  int step_y) const {
+    std::vector<std::uint8_t> means(out.size(), kCanary);
+    const int samples = info(layout_).samples, count = step_x * step_y;
+    for (int y = 0; y < rows_ / step_y; ++y) {
+      for (int x = 0; x < columns_ / step_x * samples; ++x) {
+        const int left = x / samples * step_x * samples + x % samples;
+        int sum = 0;
+        for (int k = 0; k < count; ++k) {
+          sum +=
+              out[margin_ + (y * step_y + k / step_x) * out_stride_ + left + k % step_x * samples];
+        }
+        means[margin_ + y * out_stride_ + x] = static_cast<std::uint8_t>((sum + count / 2) / count);
+      }
+    }
+    return means;
+  }
+
   void expect_canaries(const std::vector<std::uint8_t>& out) const {
     for (std::size_t k = 0; k < out.size(); ++k) {
       const auto at = static_cast<std::ptrdiff_t>(k) - margin_;
@@ -172,6 +191,32 @@ TEST_P(KernelOfLayout, EqualsTheScalarOne) {
   }
   EXPECT_GT(steepest, 400);
   EXPECT_GT(gentle, 500);
+}
+
+TEST_P(KernelOfLayout, AveragesPairsAndSquares) {
+  std::mt19937 random(9);
+  int fitting = 0;
+  for (int round = 0; round < 500; ++round) {
+    const int blocks_y = 1 << (round / 2 % 4);
+    const RandomPatch shape(random, {round % 5 ? 1.0 : 0.3, round % 7 ? 0.01 : 0});
+    const Trial trial(random, GetParam().layout,
+                      round % 3 ? shape.patch() : shape.steepest(4, blocks_y), 4, blocks_y);
+    if (!trial.fits()) continue;
+    ++fitting;
+    const std::vector<std::uint8_t> all = trial.out_of(scalar_kernel());
+    const auto expect_means = [&](Kernel::Tile kernel, int step_x, int step_y) {
+      if (kernel == nullptr) return;
+      ASSERT_EQ(trial.out_of(kernel), trial.means(all, step_x, step_y))
+          << step_x << 'x' << step_y << " in round " << round;
+    };
+    for (const Kernel* kernel : kernels()) {
+      const auto number = static_cast<std::size_t>(GetParam().layout);
+      expect_means(kernel->means_along_x[number], 2, 1);
+      expect_means(kernel->means_along_y[number], 1, 2);
+      expect_means(kernel->means_of_four[number], 2, 2);
+    }
+  }
+  EXPECT_GT(fitting, 200);
 }
 
 TEST_P(KernelOfLayout, KeepsEverySecondColumnOrRow) {

@@ -126,7 +126,8 @@ unsigned sample_of(const std::uint8_t* row, int sample, int bytes) {
   return value;
 }
 
-TEST(Average, IsTheMeanOfFourInEveryLayout) {
+/// Checks means of `across` x `down` samples.
+void expect_means(int across, int down) {
   std::mt19937 random(3);
   OversampledTile tile;
   for (std::uint8_t& byte : tile.samples) byte = static_cast<std::uint8_t>(random());
@@ -138,23 +139,30 @@ TEST(Average, IsTheMeanOfFourInEveryLayout) {
       SCOPED_TRACE(testing::Message() << "layout " << n << ' ' << columns << 'x' << rows);
       const std::ptrdiff_t used = columns * facts.out_bytes(), stride = used + 5;
       std::vector<std::uint8_t> out(rows * stride, kUntouched);
-      average(tile, layout, {out.data(), stride, columns, rows});
+      average(tile, layout, {across == 2, down == 2}, {out.data(), stride, columns, rows});
       for (int y = 0; y < rows; ++y) {
-        const std::uint8_t* const upper = tile.samples.data() + 2 * y * from;
+        const std::uint8_t* const upper = tile.samples.data() + down * y * from;
         for (int k = 0; k < columns * facts.samples; ++k) {
-          const int left = k / facts.samples * 2 * facts.samples + k % facts.samples;
+          const int left = k / facts.samples * across * facts.samples + k % facts.samples;
           double sum = 0;
-          for (const int sample : {left, left + facts.samples}) {
-            sum += sample_of(upper, sample, facts.sample_bytes) +
-                   sample_of(upper + from, sample, facts.sample_bytes);
+          for (int n = 0; n < across * down; ++n) {
+            sum += sample_of(upper + n / across * from, left + n % across * facts.samples,
+                             facts.sample_bytes);
           }
-          ASSERT_EQ(sample_of(&out[y * stride], k, facts.sample_bytes), std::floor(sum / 4 + 0.5))
+          ASSERT_EQ(sample_of(&out[y * stride], k, facts.sample_bytes),
+                    std::floor(sum / (across * down) + 0.5))
               << k << ' ' << y;
         }
         for (std::ptrdiff_t k = used; k < stride; ++k) ASSERT_EQ(out[y * stride + k], kUntouched);
       }
     }
   }
+}
+
+TEST(Average, IsTheMeanOfFourOrTwoInEveryLayout) {
+  expect_means(2, 2);
+  expect_means(2, 1);
+  expect_means(1, 2);
 }
 
 }  // namespace

@@ -103,6 +103,15 @@ TEST(AtHalfSteps, LiesAQuarterOfAPixelBeforeAndBehind) {
   });
 }
 
+TEST(AtHalfStepsAlongAnAxis, LiesAQuarterOfAPixelBeforeAndBehind) {
+  for_each_patch([](const Patch& patch) {
+    expect_map(at_half_steps_along_x(patch), kTile, kTile,
+               [&](int x, int y) { return at(patch, x / 2.0 - 0.25, y); });
+    expect_map(at_half_steps_along_y(patch), kTile, kTile,
+               [&](int x, int y) { return at(patch, x, y / 2.0 - 0.25); });
+  });
+}
+
 TEST(AtHalfRows, TakesEveryRowTwice) {
   for_each_patch([](const Patch& patch) {
     expect_map(at_half_rows(patch), kTile, kTile,
