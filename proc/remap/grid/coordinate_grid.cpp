@@ -87,10 +87,12 @@ CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
 }
 
 CoordinateTile CoordinateGrid::pixels(int tx, int ty) const {
-  if (const Tile t = tile(tx, ty); t.kind == TileKind::Pixels) return pixel_tiles_.pixels(t.index);
+  const Tile t = tile(tx, ty);
+  if (t.kind == TileKind::Pixels) return pixel_tiles_.pixels(t.index);
+  if (t.kind == TileKind::Split) return split_[t.index].pixels();
   CoordinateTile pixels;
   const auto write = [&pixels](const auto& cells) { pixels = cells.pixels(); };
-  if (visit_cells(tile(tx, ty), write)) return pixels;
+  if (visit_cells(t, write)) return pixels;
   for (int y = 0; y < kTile; ++y) pixels[y] = row(tx, ty, y);
   return pixels;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/sampling/plane_map.h"
 
 namespace orbwatch::remap {
@@ -21,14 +22,42 @@ constexpr std::int64_t rounded(std::int64_t value, int shift) {
 
 }  // namespace
 
-CoordinateRow SplitTile::row(int y) const {
-  std::array<PatchRow, 2> on{Patch(sides[0]).row(y), Patch(sides[1]).row(y)};
-  CoordinateRow row;
-  for (int x = 0; x < kTile; ++x) {
-    row[x] = on[second[y] >> x & 1].current();
-    for (PatchRow& side : on) side.step();
+namespace {
+
+/// Place of pixel (x, y) along one axis: multiplications of 32 bit, which vectors have.
+[[gnu::always_inline]] inline std::int32_t place(const PointAxis& axis, std::uint32_t x,
+                                                 std::uint32_t y) {
+  const std::uint32_t offset =
+      axis.start + y * (axis.y + y * axis.yy) + x * (axis.x + y * axis.xy) + x * x * axis.xx;
+  return axis.base + (static_cast<std::int32_t>(offset) >> PointAxis::kExtraBits);
+}
+
+/// Writes row `y` of two maps; bit x of `second` is set where the pixel is on `other`.
+[[gnu::always_inline]] inline void write_row(const PointMap& first, const PointMap& other,
+                                             std::uint16_t second, std::uint32_t y,
+                                             CoordinateRow& out) {
+  for (std::uint32_t x = 0; x < kTile; ++x) {
+    const bool is_other = (second & (std::uint32_t{1} << x)) != 0;
+    const std::int32_t u = place(first.u, x, y), v = place(first.v, x, y);
+    const std::int32_t other_u = place(other.u, x, y), other_v = place(other.v, x, y);
+    out[x] = {is_other ? other_u : u, is_other ? other_v : v};
   }
+}
+
+}  // namespace
+
+CoordinateRow SplitTile::row(int y) const {
+  CoordinateRow row;
+  const PointMap first{Patch(sides[0])}, other{Patch(sides[1])};
+  write_row(first, other, second[y], static_cast<std::uint32_t>(y), row);
   return row;
+}
+
+CoordinateTile SplitTile::pixels() const {
+  CoordinateTile tile;
+  const PointMap first{Patch(sides[0])}, other{Patch(sides[1])};
+  for (std::uint32_t y = 0; y < kTile; ++y) write_row(first, other, second[y], y, tile[y]);
+  return tile;
 }
 
 template <int Cell>

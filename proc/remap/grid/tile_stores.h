@@ -16,11 +16,14 @@ namespace orbwatch::remap {
 // first. Each has row `y`, 0..15, as coordinates or markers.
 
 /// A tile on two surfaces of the scene: a patch on nodes of each, and the side of each pixel.
+/// Places are those of PointMap.
 struct SplitTile {
   std::array<Stencil, 2> sides;
   std::array<std::uint16_t, kTile> second;  ///< bit x of word y: the pixel is on sides[1]
 
   CoordinateRow row(int y) const;
+  /// All rows; faster than row by row.
+  CoordinateTile pixels() const;
 };
 
 /// A tile with so much curvature that it needs nodes every `Cell` pixels: patches between (16 /
