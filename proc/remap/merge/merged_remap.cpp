@@ -159,10 +159,15 @@ class Merger {
     std::array<Tile, kMaxSources> pictures;
     std::array<TileWeights, kMaxSources> weights;
     std::array<MergeSource<T>, kMaxSources> merged;
+    TileWeights covered{};
     std::size_t count = 0;
     for_each(sources, [&](std::size_t n) {
-      write(tx, ty, n, area, pictures[count]);
       plan_.blend->weights(n, *sources_[n].grid, tx, ty, weights[count]);
+      if (plan_.rule == MergeRule::First && !covers_more(weights[count], area, covered)) {
+        if ((measured_ & set_of(n)) != 0) measure_beside(n, tx, ty, area);
+        return;
+      }
+      write(tx, ty, n, area, pictures[count]);
       merged[count] = {pictures[count].view(), {weights[count].data(), kTile, kTile, 1, kTile}};
       ++count;
     });
@@ -170,6 +175,20 @@ class Merger {
     show(area, [&](const MutablePicture& out, const TileArea& place) {
       merge(plan_.rule, list, part(out.samples<T>(), place), part(validity_, area), {0, 1});
     });
+  }
+
+  /// Adds the pixels that a source sees to those `covered`; false if there are no more.
+  static bool covers_more(const TileWeights& weights, const TileArea& area, TileWeights& covered) {
+    std::uint8_t more = 0;
+    for (int y = 0; y < area.rows; ++y) {
+      for (int x = 0; x < area.columns; ++x) {
+        const auto at = static_cast<std::size_t>(y * kTile + x);
+        const std::uint8_t seen = weights[at] != 0 ? 1 : 0;
+        more |= seen & ~covered[at];
+        covered[at] |= seen;
+      }
+    }
+    return more != 0;
   }
 
   /// The part of the work for a view without viewers: measured planes and validity.

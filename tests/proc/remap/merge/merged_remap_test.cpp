@@ -3,6 +3,7 @@
 #include "proc/remap/merge/source_tiles.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
@@ -320,6 +321,35 @@ TEST_F(MergedRemap, TheOthersStandInForOneThatDoesNotDeliver) {
   render();
   expect_mean();
   EXPECT_EQ(*std::max_element(rgb.begin(), rgb.end()), 0);
+}
+
+/// Bytes that a read would crash on.
+class UnreadableMemory {
+ public:
+  explicit UnreadableMemory(std::size_t bytes)
+      : bytes_(bytes),
+        begin_(::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)) {
+    if (begin_ == MAP_FAILED) std::abort();
+  }
+  ~UnreadableMemory() { ::munmap(begin_, bytes_); }
+  UnreadableMemory(const UnreadableMemory&) = delete;
+  UnreadableMemory& operator=(const UnreadableMemory&) = delete;
+
+  const std::byte* begin() const { return static_cast<const std::byte*>(begin_); }
+
+ private:
+  std::size_t bytes_;
+  void* begin_;
+};
+
+TEST_F(MergedRemap, DoesNotReadWhatIsBehindTheFirst) {
+  add(20);
+  add(20);
+  compile();
+  const UnreadableMemory hidden(cameras[1]->source.bytes.size());
+  cameras[1]->source.source.planes[0].data = hidden.begin();
+  render(MergeRule::First);
+  EXPECT_EQ(rgb, alone(0));
 }
 
 TEST_F(MergedRemap, TheFirstThatSeesHasAPixelAlone) {
