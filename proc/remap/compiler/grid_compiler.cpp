@@ -63,8 +63,8 @@ void CoordinateGrid::Compiler::compile_run(int tx, int ty, const PlainTiles::Lev
   for (int k = 0; k < count; ++k) {
     const std::int32_t level = levels[static_cast<std::size_t>(k)];
     const bool plain = level != PlainTiles::kNotPlain && is_smooth_ && !edges_.crosses(tx + k, ty);
-    const Tile tile = plain ? Tile{TileKind::Patch, true, static_cast<std::uint8_t>(level), 0}
-                            : compile(tx + k, ty);
+    const Tile tile =
+        plain ? Tile{TileKind::Patch, true, static_cast<std::uint8_t>(level)} : compile(tx + k, ty);
     grid_.tiles_.set(tile_number(tx + k, ty), tile);
     grid_.levels_ = std::max<int>(grid_.levels_, tile.level);
   }
@@ -162,9 +162,9 @@ std::optional<Tile> CoordinateGrid::Compiler::split_tile(int tx, int ty, const S
   for (int side = 0; side < 2; ++side) {
     const Place place{tx, ty, side == 0 ? first : second, false};
     const auto nodes = stencil(place);
-    if (!nodes || !is_close(*nodes, place) || !is_inside(Patch(*nodes), level_of(*nodes))) {
-      return std::nullopt;
-    }
+    if (!nodes) return std::nullopt;
+    const int level = level_of(*nodes);
+    if (!is_close(*nodes, place, level) || !is_inside(Patch(*nodes), level)) return std::nullopt;
     split.sides[side] = *nodes;
   }
   Tile tile;

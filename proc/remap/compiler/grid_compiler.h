@@ -63,7 +63,7 @@ class CoordinateGrid::Compiler {
 
   std::optional<Stencil> stencil(const Place& place);
   Coordinate extended_node(int surface, int i, int j);
-  bool is_close(const Stencil& stencil, const Place& place) const;
+  bool is_close(const Stencil& stencil, const Place& place, int level) const;
   double fourth_order_part(const Stencil& stencil, const Place& place) const;
   double curve_error(const Place& place) const;
   bool is_inside(const Patch& patch, int level) const;

@@ -59,7 +59,7 @@ double mixed_error(const FineTile<8>& fine) {
 
 Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
   const auto nodes = stencil(place);
-  if (nodes && is_close(*nodes, place)) {
+  if (nodes && is_close(*nodes, place, level_of(*nodes))) {
     auto tile = patch_tile(*nodes, place.tx, place.ty);
     if (tile && tile->kind == TileKind::Patch && !place.uniform) {
       tile->kind = TileKind::OwnPatch;
@@ -69,7 +69,10 @@ Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
     if (tile) return *tile;
   } else {
     const bool on_grid = nodes && place.uniform;
-    if (auto tile = on_grid ? curved_tile(*nodes, curve_error(place)) : std::nullopt) return *tile;
+    if (auto tile = on_grid ? curved_tile(*nodes, curve_error(place)) : std::nullopt) {
+      tile->patch_at_half = is_close(*nodes, place, tile->level + 1);
+      return *tile;
+    }
     if (auto tile = fine_tile(place)) return *tile;
   }
   Surfaces surfaces;
@@ -222,10 +225,10 @@ Coordinate CoordinateGrid::Compiler::extended_node(int surface, int i, int j) {
   return there;
 }
 
-/// True if a patch on these nodes is within the tolerance everywhere in the tile.
-bool CoordinateGrid::Compiler::is_close(const Stencil& nodes, const Place& place) const {
+/// True if a patch on these nodes is within the tolerance of that level everywhere in the tile.
+bool CoordinateGrid::Compiler::is_close(const Stencil& nodes, const Place& place, int level) const {
   if (is_too_steep(nodes, kTile)) return false;
-  const double third = third_order_error(nodes), close = close_at(level_of(nodes));
+  const double third = third_order_error(nodes), close = close_at(level);
   return third < close && third + fourth_order_part(nodes, place) < close;
 }
 

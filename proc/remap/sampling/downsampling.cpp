@@ -66,6 +66,8 @@ void average_tile(const OversampledTile& tile, const TargetPlane& out) {
     average_rows(std::integral_constant<int, kTile>());
   } else if (out.columns == kTile / 2) {
     average_rows(std::integral_constant<int, kTile / 2>());
+  } else if (out.columns == kTile / 4) {
+    average_rows(std::integral_constant<int, kTile / 4>());
   } else {
     average_rows(out.columns);
   }

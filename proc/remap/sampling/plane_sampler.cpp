@@ -13,7 +13,8 @@
 namespace orbwatch::remap {
 namespace {
 
-/// Planes that are one pixel wide or high are sampled by the scalar kernel only.
+/// Planes that are one pixel wide or high are sampled by the scalar kernel
+/// only.
 void sample_job(const Kernel& kernel, Layout layout, const PointJob& job) {
   const bool has_neighbours = job.source.width > 1 && job.source.height > 1;
   (has_neighbours ? kernel : scalar_kernel()).sample_points(layout, job);
@@ -41,7 +42,8 @@ SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& samplin
           picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
 }
 
-/// Buffer for samples at half steps along one axis, most of which are discarded.
+/// Buffer for samples at half steps along one axis, most of which are
+/// discarded.
 struct FineSamples {
   alignas(64) std::array<std::uint8_t, 2 * kTile * kTile * 4> bytes;
 
@@ -50,8 +52,9 @@ struct FineSamples {
   }
 };
 
-/// Prefetches the place to the right of a target of that width. Samples at half steps are read back
-/// as soon as they are written, behind all earlier stores: these must not wait for memory.
+/// Prefetches the place to the right of a target of that width. Samples at half
+/// steps are read back as soon as they are written, behind all earlier stores:
+/// these must not wait for memory.
 void prefetch_beside(const TargetPlane& target, int row_bytes) {
   const std::uint8_t* row = target.data + row_bytes;
   for (int y = 0; y < target.rows; ++y, row += target.stride) {
@@ -63,6 +66,11 @@ void prefetch_beside(const TargetPlane& target, int row_bytes) {
 /// True for planes that SharpenedPicture replaces.
 bool may_be_sharpened(const PlaneSampling& sampling, PixelFormat format) {
   return can_sharpen(format) && sampling.x == Siting::Full;
+}
+
+/// A step's square in Q40.
+constexpr std::int64_t square_of_step(double step) {
+  return static_cast<std::int64_t>(step * step * (1 << 20)) << 20;
 }
 
 }  // namespace
@@ -98,7 +106,9 @@ PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Pictur
       rows_(kTile >> shift(sampling.y)),
       pixel_bytes_(info(sampling.layout).out_bytes()),
       tile_bytes_(columns_ * pixel_bytes_),
-      is_sharpened_(may_be_sharpened(sampling, pictures.front().format)) {
+      longest_step2_(square_of_step(may_be_sharpened(sampling, pictures.front().format)
+                                        ? kLongestSharpenedStep
+                                        : kLongestStep)) {
   if (number(sampling.layout) < kKernelLayouts) {
     block_kernel_ = kernel.tiles[number(sampling.layout)];
     even_columns_ = kernel.even_columns[number(sampling.layout)];
@@ -152,36 +162,44 @@ void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, st
 
 void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane& target) const {
   const Patch map = on_plane(patch, sampling_);
-  TwiceAlong twice = reading.averaged ? twice_along(map, target) : TwiceAlong();
+  const SourcePlane& source = sources_[reading.mip_level];
+  if (!reading.averaged) return sample_once(map, reading.in_windows, source, target);
+  const TwiceAlong twice = twice_along(map, target);
+  const bool in_blocks = reading.in_windows && has_blocks();
   if (!twice.x && !twice.y) {
-    const SourcePlane& source = sources_[reading.mip_level];
-    if (!reading.averaged || !reading.in_windows) {
-      return sample_once(map, reading.in_windows, source, target);
-    }
-    if (has_blocks() && sample_blocks(map, source, target)) return;
-    twice.y = true;  // at half steps blocks fit their windows
+    if (!in_blocks) return sample_once(map, false, source, target);
+    if (sample_blocks(map, source, target)) return;
+  } else if (sample_means(map, twice, reading, target)) {
+    return;
   }
-  const Patch fine = !twice.y   ? at_half_steps_along_x(map)
-                     : !twice.x ? at_half_steps_along_y(map)
-                                : at_half_steps(map);
+  // At half steps along both axes, most blocks fit their windows.
+  sample_means(map, {true, true}, reading, target);
+}
+
+/// Fills a target with means of two or four samples. False, and then undefined: along one axis
+/// alone, they do not fit windows.
+bool PlaneSampler::sample_means(const Patch& patch, TwiceAlong twice, const Reading& reading,
+                                const TargetPlane& target) const {
+  const Patch fine = !twice.y   ? at_half_steps_along_x(patch)
+                     : !twice.x ? at_half_steps_along_y(patch)
+                                : at_half_steps(patch);
   const int shift_x = twice.x ? 1 : 0;
-  for (int left = 0; left < target.columns << shift_x; left += kTile) {
-    TargetPlane part = target;
-    part.columns = std::min(target.columns, kTile >> shift_x);
-    part.data += (left >> shift_x) * pixel_bytes_;
-    sample_means(left == 0 ? fine : moved(fine, left, 0), twice, reading, part);
-  }
+  TargetPlane part = target;
+  part.columns = std::min(target.columns, kTile >> shift_x);
+  if (!sample_column_of_means(fine, twice, reading, part)) return false;
+  if (part.columns == target.columns) return true;
+  part.data += part.columns * pixel_bytes_;
+  return sample_column_of_means(moved(fine, kTile, 0), twice, reading, part);
 }
 
 /// The axes along which a target's pixels are means of two samples.
 TwiceAlong PlaneSampler::twice_along(const Patch& patch, const TargetPlane& target) const {
   // Less than a block would be sampled pixel by pixel.
-  if (is_sharpened_ || target.columns < kBlock || target.rows < kBlock) return {true, true};
+  if (target.columns < kBlock || target.rows < kBlock) return {true, true};
   const UvXy32 slope = slope_at(patch, target.columns / 2, target.rows / 2);
   static_assert(kFractionBits + UvQuadratic::kSlopeBits == 20, "squares are Q40");
   const auto is_long = [&](int u, int v) {
-    constexpr auto kMost = static_cast<std::int64_t>(kLongestStep * kLongestStep * (1 << 20)) << 20;
-    return std::int64_t{slope[u]} * slope[u] + std::int64_t{slope[v]} * slope[v] > kMost;
+    return std::int64_t{slope[u]} * slope[u] + std::int64_t{slope[v]} * slope[v] > longest_step2_;
   };
   return {is_long(0, 1), is_long(2, 3)};
 }
@@ -196,35 +214,54 @@ void PlaneSampler::sample_once(const Patch& patch, bool in_windows, const Source
   }
 }
 
-/// Fills a target with means of the samples of `fine`, which are at most kTile wide.
-void PlaneSampler::sample_means(const Patch& fine, TwiceAlong twice, const Reading& reading,
-                                const TargetPlane& target) const {
-  const SourcePlane& source = sources_[reading.mip_level];
-  OversampledTile tile;
-  const TargetPlane samples{tile.samples.data(), OversampledTile::stride(sampling_.layout),
-                            target.columns << (twice.x ? 1 : 0), target.rows << (twice.y ? 1 : 0)};
-  BlockMap map;
-  if (reading.in_windows && has_blocks() && samples.columns == kTile &&
-      map.fit(fine, samples.columns, samples.rows, rounding_)) {
-    const Kernel::Tile means = !twice.y   ? means_along_x_
-                               : !twice.x ? means_along_y_
-                                          : means_of_four_;
-    if (means != nullptr) return means({map, source, target});
-    block_kernel_({map, source, samples});
-  } else if (samples.rows > kTile) {
-    TargetPlane half = target;
-    half.rows /= 2;
-    sample_means(fine, twice, reading, half);
-    half.data += half.rows * half.stride;
-    return sample_means(moved(fine, 0, samples.rows / 2), twice, reading, half);
-  } else {
-    sample_once(fine, reading.in_windows, source, samples);
+/// The same for samples of `fine` that are at most kTile wide.
+bool PlaneSampler::sample_column_of_means(const Patch& fine, TwiceAlong twice,
+                                          const Reading& reading, const TargetPlane& target) const {
+  const bool in_blocks = reading.in_windows && has_blocks();
+  if (in_blocks && average_blocks(fine, twice, reading, target)) return true;
+  TargetPlane part = target;
+  part.rows = std::min(target.rows, kTile >> (twice.y ? 1 : 0));
+  for (int y = 0; y < target.rows; y += part.rows, part.data += part.rows * part.stride) {
+    const Patch from_here = y == 0 ? fine : moved(fine, 0, kTile);
+    const bool is_new = part.rows < target.rows;
+    if (is_new && in_blocks && average_blocks(from_here, twice, reading, part)) continue;
+    if (in_blocks && !(twice.x && twice.y)) return false;
+    OversampledTile tile;
+    sample_once(from_here, reading.in_windows, sources_[reading.mip_level],
+                samples_of(part, twice, tile));
+    average(tile, sampling_.layout, twice, part);
   }
-  average(tile, sampling_.layout, twice, target);
+  return true;
 }
 
-/// Samples blocks that do not fit their windows but may do so at half the step, along one axis or
-/// both; not worth it for a single block in a row.
+/// The same in blocks. False: they do not fit windows.
+[[gnu::always_inline]] inline bool PlaneSampler::average_blocks(const Patch& fine, TwiceAlong twice,
+                                                                const Reading& reading,
+                                                                const TargetPlane& target) const {
+  const SourcePlane& source = sources_[reading.mip_level];
+  OversampledTile tile;
+  const TargetPlane samples = samples_of(target, twice, tile);
+  BlockMap map;
+  if (!map.fit(fine, samples.columns, samples.rows, rounding_)) return false;
+  const Kernel::Tile means = !twice.y ? means_along_x_ : !twice.x ? means_along_y_ : means_of_four_;
+  if (means != nullptr && samples.columns == kTile) {
+    means({map, source, target});
+  } else {
+    block_kernel_({map, source, samples});
+    average(tile, sampling_.layout, twice, target);
+  }
+  return true;
+}
+
+/// Place in `tile` of the samples whose means fill a target.
+TargetPlane PlaneSampler::samples_of(const TargetPlane& target, TwiceAlong twice,
+                                     OversampledTile& tile) const {
+  return {tile.samples.data(), OversampledTile::stride(sampling_.layout),
+          target.columns << (twice.x ? 1 : 0), target.rows << (twice.y ? 1 : 0)};
+}
+
+/// Samples blocks that do not fit their windows but may do so at half the step,
+/// along one axis or both; not worth it for a single block in a row.
 void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
                                 const TargetPlane& target) const {
   if (target.columns >= 2 * kBlock) {
@@ -235,8 +272,8 @@ void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
   sample_points(*kernel_, sampling_.layout, patch, source, target);
 }
 
-/// Samples with a kernel that keeps half of the pixels of a `fine` target. False: they do not fit
-/// windows.
+/// Samples with a kernel that keeps half of the pixels of a `fine` target.
+/// False: they do not fit windows.
 bool PlaneSampler::keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
                              const TargetPlane& fine, const TargetPlane& kept) const {
   BlockMap map;
@@ -256,7 +293,8 @@ bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& sourc
   return true;
 }
 
-/// A subsampled plane may be steep along x only. A patch that is steep along both axes needs both.
+/// A subsampled plane may be steep along x only. A patch that is steep along
+/// both axes needs both.
 bool PlaneSampler::sample_half_columns(const Patch& patch, const SourcePlane& source,
                                        const TargetPlane& target) const {
   const Patch half = at_half_columns(patch);

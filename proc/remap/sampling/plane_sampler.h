@@ -19,8 +19,8 @@
 
 namespace orbwatch::remap {
 
-/// Samples a target pixel by pixel at integer X, Y of a patch, also at the source's borders, where
-/// its outermost pixels are repeated. Reentrant.
+/// Samples a target pixel by pixel at integer X, Y of a patch, also at the
+/// source's borders, where its outermost pixels are repeated. Reentrant.
 void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
                    const SourcePlane& source, const TargetPlane& target);
 
@@ -28,11 +28,13 @@ void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
 void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
                    std::uint8_t black, const SourcePlane& source, const TargetPlane& target);
 
-/// The longest step along an axis, in pixels of the level that is read, for a single sample along
-/// it where pixels are means. A bilinear sample is itself a mean, and blurs: of a picture as a
-/// camera makes it, a single one is closer to the mean over the view's pixel up to this step, and
-/// two are beyond. Sharpening compensates that blur, so that sharpened planes need two.
+/// The longest step along an axis, in pixels of the level that is read, for a
+/// single sample along it where pixels are means. A bilinear sample is itself a
+/// mean, and blurs: of a picture as a camera makes it, a single one is closer
+/// to the mean over the view's pixel up to this step, and two are beyond.
+/// Sharpening compensates that blur.
 inline constexpr double kLongestStep = 1.7;
+inline constexpr double kLongestSharpenedStep = 0.75;
 
 /// Bytes that one request loads into the cache.
 inline constexpr int kCacheLine = 64;
@@ -41,11 +43,12 @@ inline constexpr int kCacheLine = 64;
 struct Reading {
   bool averaged = false;    ///< pixels are means of several samples: the view is smaller
   int mip_level = 0;        ///< level of the source that is sampled
-  bool in_windows = false;  ///< kernels may read windows around every pixel, see Tile::interior
+  bool in_windows = false;  ///< kernels may read windows around every pixel, see
+                            ///< Tile::interior
 };
 
-/// Samples tiles of one PlaneSampling. Refers to the pictures; holds the data that all tiles have
-/// in common. Reentrant.
+/// Samples tiles of one PlaneSampling. Refers to the pictures; holds the data
+/// that all tiles have in common. Reentrant.
 class PlaneSampler {
  public:
   PlaneSampler() = default;
@@ -58,16 +61,20 @@ class PlaneSampler {
   int rows() const { return rows_; }                ///< height of a tile
   int pixel_bytes() const { return pixel_bytes_; }  ///< bytes of an output pixel
   int tile_bytes() const { return tile_bytes_; }    ///< bytes of a tile's row
+  /// True if the plane has half the picture's resolution along both axes.
+  bool is_half() const { return sampling_.x != Siting::Full && sampling_.y != Siting::Full; }
   bool has_blocks() const { return block_kernel_ != nullptr; }
 
   /// Prefetches the samples of an area of the picture.
   void fetch(const SourceArea& area) const;
 
-  /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip level that is read.
+  /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip
+  /// level that is read.
   void sample(const Patch& patch, Reading reading, const TargetPlane& target) const;
 
-  /// The same for most tiles: not averaged, in windows, of a layout that has_blocks(), at least 8
-  /// pixels wide. Inlined alone: the rarer paths would cost these tiles registers.
+  /// The same for most tiles: not averaged, in windows, of a layout that
+  /// has_blocks(), at least 8 pixels wide. Inlined alone: the rarer paths would
+  /// cost these tiles registers.
   [[gnu::always_inline]] void sample_blocks(const Patch& patch, const TargetPlane& target) const {
     const auto sample = [&](const Patch& map) __attribute__((always_inline)) {
       if (!sample_blocks(map, sources_[0], target)) sample_steep(map, sources_[0], target);
@@ -75,8 +82,8 @@ class PlaneSampler {
     sampling_.x == Siting::Full ? sample(patch) : sample(on_plane(patch, sampling_));
   }
 
-  /// Fills a target pixel by pixel, from coordinates in the mip level that is read.
-  /// Undefined pixels become `black`.
+  /// Fills a target pixel by pixel, from coordinates in the mip level that is
+  /// read. Undefined pixels become `black`.
   void sample(const CoordinateTile& coordinates, Reading reading, std::uint8_t black,
               const TargetPlane& target) const;
 
@@ -91,8 +98,13 @@ class PlaneSampler {
   TwiceAlong twice_along(const Patch& patch, const TargetPlane& target) const;
   void sample_once(const Patch& patch, bool in_windows, const SourcePlane& source,
                    const TargetPlane& target) const;
-  void sample_means(const Patch& fine, TwiceAlong twice, const Reading& reading,
+  bool sample_means(const Patch& patch, TwiceAlong twice, const Reading& reading,
                     const TargetPlane& target) const;
+  bool sample_column_of_means(const Patch& fine, TwiceAlong twice, const Reading& reading,
+                              const TargetPlane& target) const;
+  bool average_blocks(const Patch& fine, TwiceAlong twice, const Reading& reading,
+                      const TargetPlane& target) const;
+  TargetPlane samples_of(const TargetPlane& target, TwiceAlong twice, OversampledTile& tile) const;
   bool keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
                  const TargetPlane& fine, const TargetPlane& kept) const;
   void sample_steep(const Patch& patch, const SourcePlane& source, const TargetPlane& target) const;
@@ -108,7 +120,7 @@ class PlaneSampler {
   Kernel::Tile means_along_x_ = nullptr, means_along_y_ = nullptr, means_of_four_ = nullptr;
   Uv64 rounding_{};  ///< see BlockMap
   int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;
-  bool is_sharpened_ = false;                   ///< true if the plane may be sharpened
+  std::int64_t longest_step2_ = 0;  ///< square of kLongestStep or kLongestSharpenedStep, Q40
   std::array<SourcePlane, kMaxLevel> sources_;  ///< one per mip level
 };
 

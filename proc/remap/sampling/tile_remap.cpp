@@ -120,8 +120,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
 /// `in_place`: the targets of the tile's samples, if the view has the sampled layout.
 [[gnu::noinline]] void TileRemap::write_other(int tx, int ty, const MutablePicture& out,
                                               const TileArea& area, const Targets* in_place) const {
-  const Tile tile = grid_.tile(tx, ty);
-  if (is_empty(tile.kind)) return clear_area(out, area);
+  if (is_empty(grid_.tile(tx, ty).kind)) return clear_area(out, area);
   SampledTile sampled;
   const Targets targets = in_place != nullptr ? *in_place : targets_in(sampled);
   const auto convert = [&] {
@@ -136,20 +135,33 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
     }
   };
   if (in_place == nullptr && write_simple(tx, ty, targets)) return convert();
-  const Reading reading = this->reading(tile);
-  const bool smooth = interpolation_ != Interpolation::Nearest;
-  if (smooth && is_patch(tile.kind)) {
-    sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets);
-    return convert();
-  }
-  const auto sample_cells = [&](const auto& cells) { sample(cells, reading, targets); };
-  if (smooth && grid_.visit_cells(tile, sample_cells)) return convert();
+  if (sample_smooth(tx, ty, targets)) return convert();
   CoordinateTile coordinates = grid_.pixels(tx, ty);
-  if (!smooth) round_to_pixels(coordinates);
-  sample(coordinates, reading, targets);
+  if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
+  sample(coordinates, reading(grid_.tile(tx, ty)), targets);
   convert();
   if (format_ != out.format && sampled_ == SampledPlanes::All)
     clear_undefined(coordinates, out, area);
+}
+
+/// Samples a tile of patches; false for another one, or where places are rounded to pixels.
+[[gnu::noinline]] bool TileRemap::sample_smooth(int tx, int ty, const Targets& targets) const {
+  if (interpolation_ == Interpolation::Nearest) return false;
+  const Tile tile = grid_.tile(tx, ty);
+  const Reading reading = this->reading(tile);
+  const auto sample_patch = [&](PlaneRange planes) {
+    sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets, planes);
+  };
+  if (is_patch(tile.kind)) {
+    sample_patch({0, plane_count_});
+    return true;
+  }
+  // Chroma may be a single patch although luminance is not.
+  const bool is_apart = tile.patch_at_half && planes_[plane_count_ - 1].is_half();
+  const PlaneRange in_cells{0, is_apart ? 1 : plane_count_};
+  if (is_apart) sample_patch({in_cells.last, plane_count_});
+  return grid_.visit_cells(tile,
+                           [&](const auto& cells) { sample(cells, reading, targets, in_cells); });
 }
 
 /// The last factor of two is averaged from samples, which keeps more detail than a mip level.
@@ -183,25 +195,31 @@ TileRemap::Targets TileRemap::targets_in(SampledTile& tile) const {
   return targets;
 }
 
-void TileRemap::sample(const Patch& patch, Reading reading, const Targets& targets) const {
+void TileRemap::sample(const Patch& patch, Reading reading, const Targets& targets,
+                       PlaneRange planes) const {
   const Patch map = reading.mip_level > 0 ? on_level(patch, reading.mip_level) : patch;
-  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample(map, reading, targets[n]);
+  for (std::size_t n = planes.first; n < planes.last; ++n) {
+    planes_[n].sample(map, reading, targets[n]);
+  }
 }
 
 /// The same for a patch in each cell.
 template <int Cell>
-void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const {
+void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets,
+                       PlaneRange planes) const {
+  Targets parts = targets;
+  for (std::size_t n = planes.first; n < planes.last; ++n) {
+    parts[n].columns /= cells.kCells;
+    parts[n].rows /= cells.kCells;
+  }
   for (int j = 0; j < cells.kCells; ++j) {
     for (int i = 0; i < cells.kCells; ++i) {
-      Targets parts = targets;
-      for (std::size_t n = 0; n < plane_count_; ++n) {
+      for (std::size_t n = planes.first; n < planes.last; ++n) {
         TargetPlane& part = parts[n];
-        part.columns /= cells.kCells;
-        part.rows /= cells.kCells;
-        part.data += j * part.rows * part.stride +
-                     std::ptrdiff_t{i} * part.columns * planes_[n].pixel_bytes();
+        part.data = targets[n].data + j * part.rows * part.stride +
+                    std::ptrdiff_t{i} * part.columns * planes_[n].pixel_bytes();
       }
-      sample(cells.patch(i, j), reading, parts);
+      sample(cells.patch(i, j), reading, parts, planes);
     }
   }
 }

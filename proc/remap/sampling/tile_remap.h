@@ -51,6 +51,10 @@ class TileRemap {
   void write_row(int ty, const MutablePicture& out) const;
 
  private:
+  /// Planes [first, last) of planes_.
+  struct PlaneRange {
+    std::size_t first, last;
+  };
   /// Targets of a tile's samples, one per sampling.
   using Targets = std::array<TargetPlane, 3>;
 
@@ -59,12 +63,14 @@ class TileRemap {
   bool write_simple(int tx, int ty, const Targets& targets) const;
   void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
                    const Targets* in_place) const;
+  bool sample_smooth(int tx, int ty, const Targets& targets) const;
   void fetch(int tx, int ty) const;
   void fetch_targets(const Targets& targets, int tx) const;
   Reading reading(const Tile& tile) const;
-  void sample(const Patch& patch, Reading reading, const Targets& targets) const;
+  void sample(const Patch& patch, Reading reading, const Targets& targets, PlaneRange planes) const;
   template <int Cell>
-  void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const;
+  void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets,
+              PlaneRange planes) const;
   void sample(const CoordinateTile& coordinates, Reading reading, const Targets& targets) const;
 
   const CoordinateGrid& grid_;

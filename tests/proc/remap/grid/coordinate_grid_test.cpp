@@ -239,6 +239,56 @@ TEST(CoordinateGrid, AFullHdViewIsMadeOfPatches) {
   }
 }
 
+/// A panorama of the size of a display's view, most of which is smaller than the ball's picture.
+struct SmallPanorama {
+  BallProjection ball =
+      centred_ball(BallModel::make(BallModel::Kind::Exact, 348.5).value(), 1100, 540);
+  ViewProjection view =
+      ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 1024, 512}).value();
+  CoordinateGrid grid{view, ball, 1100, 1100};
+
+  template <class Visit>
+  void for_each_tile(const Visit& visit) const {
+    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+      for (int tx = 0; tx < grid.tiles_x(); ++tx) visit(tx, ty, grid.tile(tx, ty));
+    }
+  }
+};
+
+TEST(CoordinateGrid, APanoramaHasPatchesWhereItIsSmaller) {
+  int smaller = 0, patches = 0;
+  SmallPanorama().for_each_tile([&](int, int, const Tile& tile) {
+    smaller += tile.level > 0;
+    patches += tile.level > 0 && is_patch(tile.kind);
+  });
+  EXPECT_GT(smaller, 1500);
+  EXPECT_GT(patches, smaller / 3);
+}
+
+TEST(CoordinateGrid, APatchAtHalfIsExactToPixelsOfTwiceTheSize) {
+  const SmallPanorama scene;
+  int found = 0;
+  double worst = 0;
+  scene.for_each_tile([&](int tx, int ty, const Tile& tile) {
+    if (!tile.patch_at_half) return;
+    ++found;
+    ASSERT_EQ(tile.kind, TileKind::Curved);
+    const Patch patch(scene.grid.nodes(tile, tx, ty));
+    for (int y = 0; y < kTile; ++y) {
+      for (int x = 0; x < kTile; ++x) {
+        const Coordinate mine = patch.at(x, y);
+        const auto truth =
+            exact(scene.grid, scene.view, scene.ball, tx * kTile + x, ty * kTile + y);
+        const double error =
+            std::hypot(mine.u / kOnePixel - truth->u, mine.v / kOnePixel - truth->v);
+        worst = std::max(worst, error / (1 << tile.level));
+      }
+    }
+  });
+  EXPECT_GT(found, 300);
+  EXPECT_LE(worst, 2 * kTolerance);
+}
+
 TEST(CoordinateGrid, KeepsEachTileInTheLeastThatDescribesIt) {
   std::map<TileKind, int> kinds;
   const auto count = [&](const BallProjection& ball, const ViewSpec& spec, int size) {

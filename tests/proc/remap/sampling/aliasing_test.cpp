@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -160,6 +161,9 @@ void expect_no_worse(const optics::ViewSpec& spec) {
     SCOPED_TRACE(testing::Message() << info(format).name << ' ' << sharpened);
     const RingsQuality q = rings_quality(grid, pixels, format, sharpened);
     EXPECT_GE(q.ours, q.four - 0.1);
+    const std::string of = std::string(info(format).name) + (sharpened ? "_sharpened" : "");
+    testing::Test::RecordProperty(of + "_psnr", std::to_string(q.ours));
+    testing::Test::RecordProperty(of + "_psnr_of_four", std::to_string(q.four));
   }
 }
 
