@@ -170,9 +170,9 @@ void Pipeline::end_exchange() {
   exchanged_.notify_one();
 }
 
-/// Processes a frame set. What is measured comes first, and goes out before the pictures that people
-/// look at are made; of these, measured views come with every set, display views slow down under
-/// overload.
+/// Processes a frame set. What is measured comes first, and goes out before the pictures that
+/// people look at are made; of these, measured views come with every set, display views slow down
+/// under overload.
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
   for (Sink* sink : sinks_) sink->accept_frames(set);

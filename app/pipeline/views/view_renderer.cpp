@@ -121,8 +121,7 @@ void ViewRenderer::describe_colours(View& view, ChosenColours colours) const {
 MutablePicture ViewRenderer::measured_plane(View& view) const {
   if (!view.luminance.empty()) return picture_of(PixelFormat::Grey, view.luminance);
   const auto& words = view.radiometric.empty() ? view.counts : view.radiometric;
-  return words.empty() ? MutablePicture()
-                       : picture_of(plan_.sources[*raw_].format.format, words);
+  return words.empty() ? MutablePicture() : picture_of(plan_.sources[*raw_].format.format, words);
 }
 
 void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
