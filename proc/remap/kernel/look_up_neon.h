@@ -45,7 +45,9 @@ inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
   std::uint8_t* to = out.data;
 #pragma GCC unroll 4
   for (int at = 0; at < runs.rows * kRun; at += kRun, to += out.stride) {
-    vst3q_u8(to, {vld1q_u8(found[0] + at), vld1q_u8(found[1] + at), vld1q_u8(found[2] + at)});
+    const uint8x16x3_t pixels{
+        {vld1q_u8(found[0] + at), vld1q_u8(found[1] + at), vld1q_u8(found[2] + at)}};
+    vst3q_u8(to, pixels);
   }
 }
 

@@ -77,22 +77,39 @@ template <Mean mean>
   return means_of_four(blocks);
 }
 
-/// Stores a row of pixels from the rows of their samples.
+/// Stores a row of pixels from the rows of their samples. Structures have names: clang's stores are
+/// macros.
 template <std::size_t samples>
 [[gnu::always_inline]] inline void store_pixels(const std::array<uint8x8_t, samples>& row,
                                                 std::uint8_t* out) {
-  if constexpr (samples == 1) vst1_u8(out, row[0]);
-  if constexpr (samples == 2) vst2_u8(out, {row[0], row[1]});
-  if constexpr (samples == 3) vst3_u8(out, {row[0], row[1], row[2]});
-  if constexpr (samples == 4) vst4_u8(out, {row[0], row[1], row[2], row[3]});
+  if constexpr (samples == 1) {
+    vst1_u8(out, row[0]);
+  } else if constexpr (samples == 2) {
+    const uint8x8x2_t pixels{{row[0], row[1]}};
+    vst2_u8(out, pixels);
+  } else if constexpr (samples == 3) {
+    const uint8x8x3_t pixels{{row[0], row[1], row[2]}};
+    vst3_u8(out, pixels);
+  } else {
+    const uint8x8x4_t pixels{{row[0], row[1], row[2], row[3]}};
+    vst4_u8(out, pixels);
+  }
 }
 template <std::size_t samples>
 [[gnu::always_inline]] inline void store_pixels(const std::array<uint8x16_t, samples>& row,
                                                 std::uint8_t* out) {
-  if constexpr (samples == 1) vst1q_u8(out, row[0]);
-  if constexpr (samples == 2) vst2q_u8(out, {row[0], row[1]});
-  if constexpr (samples == 3) vst3q_u8(out, {row[0], row[1], row[2]});
-  if constexpr (samples == 4) vst4q_u8(out, {row[0], row[1], row[2], row[3]});
+  if constexpr (samples == 1) {
+    vst1q_u8(out, row[0]);
+  } else if constexpr (samples == 2) {
+    const uint8x16x2_t pixels{{row[0], row[1]}};
+    vst2q_u8(out, pixels);
+  } else if constexpr (samples == 3) {
+    const uint8x16x3_t pixels{{row[0], row[1], row[2]}};
+    vst3q_u8(out, pixels);
+  } else {
+    const uint8x16x4_t pixels{{row[0], row[1], row[2], row[3]}};
+    vst4q_u8(out, pixels);
+  }
 }
 
 /// Stores the means of four blocks side by side.
