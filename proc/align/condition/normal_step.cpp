@@ -36,7 +36,9 @@ NormalStep normal_step(double x) {
   static const NormalNodes nodes = computed_nodes();
   if (std::isnan(x)) return {x, x};
   const double inside = std::clamp(x, -kOutermostNode, kOutermostNode);
-  const int node = static_cast<int>((inside + kOutermostNode) * kNodesPerUnit + 0.5);
+  // Above zero, so that leaving out its fraction rounds to the nearest node.
+  const double beyond_node = (inside + kOutermostNode) * kNodesPerUnit + 0.5;
+  const int node = static_cast<int>(beyond_node);
   const NormalStep& at = nodes[static_cast<std::size_t>(node)];
   // The density's derivatives are Hermite's polynomials times the density.
   const double from = place_of_node(node), d = inside - from;

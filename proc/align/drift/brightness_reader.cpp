@@ -2,6 +2,7 @@
 #include "proc/align/drift/brightness_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -90,7 +91,7 @@ class WeightedRow {
     if constexpr (used == 1) return;
     std::array<std::uint16_t, channels> fixed{};
     for (std::size_t c = 0; c < used; ++c) {
-      fixed[c] = static_cast<std::uint16_t>(65536 * weights.of[c] + 0.5F);
+      fixed[c] = static_cast<std::uint16_t>(std::lround(65536 * weights.of[c]));
     }
     for (std::size_t n = 0; n < kSums; n += channels) {
       std::copy(fixed.begin(), fixed.end(), repeated_.begin() + static_cast<std::ptrdiff_t>(n));
