@@ -51,8 +51,8 @@ double measure(const cv::Size& size) {
   const Picture picture = tests::picture_of_mat(pixels);
   int edges = 0;
   const double focus = milliseconds_of([&] {
-    const auto measured = align::measure_focus(picture, limb);
-    if (measured && measured->reflection) edges = measured->reflection->edges;
+    const auto blur = align::reflection_blur(picture, limb);
+    if (blur) edges = blur->edges;
   });
   const align::DirtSettings settings;
   const double pause = settings.window / static_cast<double>(align::DirtWatch::kLooks);
