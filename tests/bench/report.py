@@ -261,6 +261,7 @@ def stage_table(measured):
     rates = [1e9 * CLOCKS[processor] * measured.instructions_per_cycle(processor)
              for processor in CLOCKS]
     stages = instruction_gates.stages(measured.ours)
+    stages.append(("until_the_status", instruction_gates.answer(measured.ours)))
     stages.append(("frame_set", measured.ours.get(("reference_rgb", "frame_set"))))
     return table(["stage", "million instructions", *(f"modelled ms, {processor}"
                                                      for processor in CLOCKS)],
