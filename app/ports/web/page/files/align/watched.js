@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drift of an alignment, focus and cleanness of the ball, over time.
 import { History } from "../appliance/history.js";
-import { drawChart } from "../elements/chart.js";
+import { chartCanvas, drawChart } from "../elements/chart.js";
 import { element, setText } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
@@ -17,7 +17,7 @@ export class Watched {
   constructor(descriptions) {
     this.descriptions = descriptions;
     this.parts = Object.fromEntries(Object.keys(kFigures).map((name) => [name, {
-      now: element("p"), canvas: element("canvas", { className: "chart", role: "img" })}]));
+      now: element("p"), canvas: chartCanvas(texts.watched[name]) }]));
     this.root = element("section", { id: "watched" }, element("h3", {}, texts.watched.title),
       ...Object.values(this.parts).flatMap(({ now, canvas }) => [now, canvas]));
   }

@@ -2,6 +2,7 @@
 // The last ten minutes of one figure as a strip.
 import { kHistoryMs } from "../appliance/history.js";
 import { texts } from "../texts.js";
+import { element } from "./elements.js";
 import { figureText } from "./figures.js";
 
 const kLinePx = 16;  // height of a text line
@@ -33,6 +34,10 @@ export function scaleOf(canvas, history, more = []) {
   return measured.length === 0 && more.length === 0 ? null
     : new Scale([...measured, ...more], canvas.clientHeight);
 }
+
+// Canvas of a chart, with its name for screen readers from the beginning.
+export const chartCanvas = (name) => element("canvas",
+  { className: "chart", role: "img", "aria-label": texts.chartEmpty(name) });
 
 export function drawChart(canvas, history, name, unit, now, scale = scaleOf(canvas, history)) {
   const ratio = window.devicePixelRatio || 1;

@@ -2,7 +2,7 @@
 // Alarms, signals of the regions with their last ten minutes, their limits and outlines.
 import { command } from "../appliance/api.js";
 import { History } from "../appliance/history.js";
-import { drawChart, scaleOf } from "../elements/chart.js";
+import { chartCanvas, drawChart, scaleOf } from "../elements/chart.js";
 import { element, setText, table } from "../elements/elements.js";
 import { FigureTable, Keyed } from "../elements/figures.js";
 import { Trial } from "../system/trial.js";
@@ -72,7 +72,7 @@ class Region {
     this.table.root.setAttribute("aria-label", texts.region(name));
     this.choice = element("select", { name: "signal" });
     this.choice.addEventListener("change", () => this.#choose());
-    this.canvas = element("canvas", { className: "chart", role: "img" });
+    this.canvas = chartCanvas(texts.region(name));
     this.limits = new LimitLines(recipe, mayChange);
     recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
     this.root = element("div", { "data-region": name }, element("h3", {}, texts.region(name)),
