@@ -177,15 +177,16 @@ class DriftMonitor::Impl {
     return state_;
   }
 
-  /// True: the ball was measured a moment ago, rests since then, and a glance shows it at its mean
-  /// place. Everything else is measured in its own frame: jumps, darkness, the way of a drift to
-  /// its limit, vibration, the first seconds.
+  /// True: the ball was measured a moment ago, rests within half the warning limit of its origin,
+  /// and a glance shows it at its mean place. Everything else is measured in its own frame: jumps,
+  /// darkness, the second half of a drift's way to its limit, vibration, the first seconds.
   bool is_as_before(const Picture& picture, Time time) {
     const Time since = time - measured_at_;
     const double alike = kUnchanged * limits_.warning;
     const bool may_wait = state_.level != DriftLevel::NotMeasured && !is_settling_ &&
                           since >= Time::zero() && since < kPauseOfMeasurements &&
-                          statistics_.is_complete() && statistics_.spread() <= alike;
+                          statistics_.is_complete() && statistics_.spread() <= alike &&
+                          state_.direction_error <= alike;
     if (!may_wait) return false;
     const auto distance = tracker_->distance_from(picture, statistics_.mean());
     return distance && view_error_.small({*distance, 0, 0, 0}) <= alike;

@@ -64,7 +64,8 @@ struct DriftState {
 /// The reference is the content of the first five usable pictures and the ball's mean place in the
 /// first 2.4 s, or the picture on which the alignment was made. A picture within 90 ms of the one
 /// measured last is only glanced at, and the state stays, while the ball rests: its last motions
-/// and a fifth of its patches are within half the warning limit of their mean. observe() costs some
+/// and a fifth of its patches are within half the warning limit of their mean, and the error of
+/// directions is below half of it. observe() costs some
 /// tenths of a millisecond whatever the picture's size, a glance a fifth of that; tens of
 /// milliseconds for the first pictures, a few for one in which the ball has jumped, and for one in
 /// 30 while the ball is not where it was. Not reentrant: one thread at a time.

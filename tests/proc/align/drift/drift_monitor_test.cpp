@@ -74,6 +74,22 @@ class DriftMonitorTest : public testing::Test {
     return state;
   }
 
+  /// Number of frames that are measured, of a ball at rest.
+  int measured_of(int frames, cv::Point2d way) {
+    int measured = 0;
+    DriftState before = see(1, way, way);
+    for (int n = 0; n < frames; ++n) {
+      const DriftState state = see(1, way, way);
+      EXPECT_EQ(state.level, DriftLevel::Good);
+      const bool is_another = state.motion.u != before.motion.u ||
+                              state.motion.v != before.motion.v ||
+                              state.motion.growth != before.motion.growth;
+      measured += is_another ? 1 : 0;
+      before = state;
+    }
+    return measured;
+  }
+
   DrawnBall drawn_;
   DriftMonitor monitor_ = DriftMonitor::make(subject(), {0.3, 0.6}).value();
   DriftMonitor::Time time_{};
@@ -117,18 +133,16 @@ TEST_F(DriftMonitorTest, RaisesAJumpInItsOwnFrameAndMeasuresItThere) {
 }
 
 TEST_F(DriftMonitorTest, MeasuresAStandingBallInOneOfThreeFrames) {
-  DriftState before = see(120, {}, {});
-  int measured = 0;
-  for (int n = 0; n < 60; ++n) {
-    const DriftState state = see(1, {}, {});
-    ASSERT_EQ(state.level, DriftLevel::Good);
-    const bool is_another = state.motion.u != before.motion.u ||
-                            state.motion.v != before.motion.v ||
-                            state.motion.growth != before.motion.growth;
-    measured += is_another ? 1 : 0;
-    before = state;
-  }
-  EXPECT_EQ(measured, 20);
+  see(120, {}, {});
+  EXPECT_EQ(measured_of(60, {}), 20);
+}
+
+/// A drift that creeps to its limit is not found later than by every frame.
+TEST_F(DriftMonitorTest, MeasuresABallFromHalfOfItsLimitOnInEachFrame) {
+  see(120, {}, {});
+  const cv::Point2d way(0.13, 0);  // 0.2 degrees, of 0.3
+  EXPECT_EQ(see(90, way, way).level, DriftLevel::Good);
+  EXPECT_EQ(measured_of(60, way), 60);
 }
 
 TEST_F(DriftMonitorTest, SeesEverythingInItsOwnFrameAtAnyMoment) {
