@@ -51,7 +51,7 @@ class Sink {
   /// the run.
   virtual KeptViews keeps() const { return {}; }
   virtual void accept(const ViewPtr& view) = 0;
-  /// Called after the views of the same frame set, and at least ten times a second without frames.
+  /// Called before the views of the same frame set, and at least ten times a second without frames.
   virtual void accept(const Status& status) = 0;
 
   /// Called before the status that shows it. Each notice counts: a sink that forwards them keeps a

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/pipeline/views/view_channel.h"
 
+#include <utility>
+
 namespace orbwatch::app::pipeline {
 
 const View* ViewChannel::render(const hal::FrameSet& set, const FramePyramids& pyramids,
@@ -34,7 +36,7 @@ void ViewChannel::draw(const FramePyramids& pyramids, WorkerPool& workers) {
 
 ViewPtr ViewChannel::take() {
   const ViewPtr rendered = std::move(rendered_);
-  return is_shared_ ? rendered : nullptr;
+  return std::exchange(is_shared_, false) ? rendered : nullptr;
 }
 
 }  // namespace orbwatch::app::pipeline
