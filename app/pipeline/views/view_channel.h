@@ -25,13 +25,13 @@ class ViewChannel {
 
   const ViewPlan& plan() const { return *plan_; }
 
-  /// What render() and draw() make from now on: of the picture, nullopt: none; and whether a
-  /// display view has the counts of its radiometric camera.
+  /// Sets the format of the picture that render() and draw() make from now on, nullopt: none, and
+  /// whether a display view has the counts of its radiometric camera.
   void set_reading(std::optional<PixelFormat> format, bool counts) {
     format_ = format;
     reads_counts_ = counts;
   }
-  /// In which it shows its one-channel cameras; valid until render() or draw() is done.
+  /// Colours of its one-channel cameras; valid until render() or draw() is done.
   void set_colours(ChosenColours colours) { colours_ = colours; }
   /// Adds what measure() samples.
   void add_measured_use(PictureUses& uses) const { renderer_->add_measured_use(uses); }

@@ -94,7 +94,7 @@ void ViewRenderer::add_use(PictureUses& uses) const {
   }
 }
 
-/// Writes by what the view is made.
+/// Writes set, direction, projection and shares into the view.
 void ViewRenderer::describe(const hal::FrameSet& set, View& view) const {
   view.frame_set = set.id;
   view.stamp = set.stamp;

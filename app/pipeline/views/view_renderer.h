@@ -52,8 +52,8 @@ class ViewRenderer {
   /// allocate.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
               WorkerPool& workers, ChosenColours colours = {}) const;
-  /// Fills the measured plane and the validity of `view` alone, of which `pyramids` were built with
-  /// add_measured_use(), so that nobody who waits for figures waits for its picture.
+  /// Fills the measured plane and the validity of `view` alone, from `pyramids` that were built
+  /// with add_measured_use(): figures do not wait for the picture.
   void measure(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
                WorkerPool& workers) const;
   /// Fills the picture of a view that measure() filled, in the format that it has.

@@ -36,7 +36,7 @@ NormalStep normal_step(double x) {
   static const NormalNodes nodes = computed_nodes();
   if (std::isnan(x)) return {x, x};
   const double inside = std::clamp(x, -kOutermostNode, kOutermostNode);
-  // Above zero, so that leaving out its fraction rounds to the nearest node.
+  // The number is positive: leaving out its fraction rounds to the nearest node.
   const double beyond_node = (inside + kOutermostNode) * kNodesPerUnit + 0.5;
   const int node = static_cast<int>(beyond_node);
   const NormalStep& at = nodes[static_cast<std::size_t>(node)];

@@ -52,7 +52,7 @@ struct SampleRows {
 template <class Sample, int channels, int dense>
 struct SummedRow {
   static constexpr std::size_t kPixels = BrightnessReader::kSide * dense;
-  /// Those of 8 bit fit 16 bit, which is faster.
+  /// Sums of 8 bit samples fit 16 bit, which is faster.
   using Sum = std::conditional_t<sizeof(Sample) == 1, std::uint16_t, std::uint32_t>;
 
   std::array<Sum, kPixels * channels> sums;

@@ -118,7 +118,7 @@ Consensus consensus(const Sighting& sighting, std::span<const PictureMotion> sta
     is_first = false;
   };
   for (const PictureMotion& start : starts) consider(start);
-  // None can be better by a fifth when nearly all agree.
+  // When nearly all patches agree, no other motion can have a fifth more.
   if (static_cast<double>(sighting.found.size()) > kBetter * best.agreeing) {
     consider(fit.median_shift());
   }

@@ -20,10 +20,6 @@ constexpr std::int64_t rounded(std::int64_t value, int shift) {
   return (value + (std::int64_t{1} << shift >> 1)) >> shift;
 }
 
-}  // namespace
-
-namespace {
-
 /// Place of pixel (x, y) along one axis: multiplications of 32 bit, which vectors have.
 [[gnu::always_inline]] inline std::int32_t place(const PointAxis& axis, std::uint32_t x,
                                                  std::uint32_t y) {
