@@ -84,8 +84,8 @@ struct Kernel {
   std::array<Tile, kKernelLayouts> even_columns{};
   std::array<Tile, kKernelLayouts> even_rows{};
   /// Variants of `tiles` for a map at half steps along an axis or both: the target's pixels are the
-  /// means of two results in a row, of two in a column, or of 2x2, rounded to nearest. `blocks_x` is
-  /// 4. Null: to be made by `tiles`. Reentrant.
+  /// means of two results in a row, of two in a column, or of 2x2, rounded to nearest. `blocks_x`
+  /// is 4. Null: to be made by `tiles`. Reentrant.
   std::array<Tile, kKernelLayouts> means_along_x{};
   std::array<Tile, kKernelLayouts> means_along_y{};
   std::array<Tile, kKernelLayouts> means_of_four{};
