@@ -10,7 +10,7 @@
 namespace orbwatch::tests {
 namespace {
 
-/// What a process holds of the kernel.
+/// Open files and threads of this process.
 struct Held {
   std::vector<std::string> files;
   std::size_t threads = 0;
