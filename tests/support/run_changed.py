@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """run_changed.py [BASE]: runs the tests for all changes since BASE (HEAD: uncommitted changes), for
 `tests/run --changed`.
+run_changed.py --passed PRESET: records that the tests of all programs of PRESET, as they are built now,
+passed, except for the long gates of alignment.
 
 Builds the release preset and runs the test programs that differ from those whose tests passed here
-before, or that start a program that differs. Then the programs of the changed folders under the
-suitable sanitizer: proc starts no thread (ASan and UBSan), hal and app do (TSan). Then clang-format
-and clang-tidy, and those of the long stages (page, packages, emulated machines, arm64's kernels) whose
-folders changed.
+before, and those of the changed folders. A program whose tests start `orbwatchd` or `orbwatch` differs by
+its own code alone; `tests/run` runs them all. Then the programs of the changed folders under the suitable
+sanitizer: proc starts no thread (ASan and UBSan), hal and app do (TSan). Then clang-format and clang-tidy,
+and those of the long stages (page, packages, emulated machines, arm64's kernels) whose folders changed.
 """
 
 import hashlib
@@ -21,8 +23,6 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LOGS = ROOT / "build/logs"
-# Programs that tests start by their path.
-STARTED = ("app/orbwatchd", "app/orbwatch")
 # The long gates of alignment, for changes that affect them (tests/support/drawn.sh).
 GATES = "align_gate_tests"
 # Tests of the tree itself: its includes and documents.
@@ -101,19 +101,8 @@ class Preset:
         return found
 
     def digests(self):
-        """The digests on which each test program's result depends: its own and those of the programs
-        that it starts."""
-        started = {str(self.folder / name).encode() + b"\0": digest(self.folder / name)
-                   for name in STARTED if (self.folder / name).exists()}
-        result = {}
-        for name, (program, _) in self.tests().items():
-            if not program.exists():
-                continue
-            content = program.read_bytes()
-            parts = [hashlib.sha256(content).hexdigest()]
-            parts += [value for path, value in started.items() if path in content]
-            result[name] = " ".join(parts)
-        return result
+        """The digest of each test program that is built."""
+        return {name: digest(program) for name, (program, _) in self.tests().items() if program.exists()}
 
     def run(self, names):
         """Runs the named programs' tests; records those that passed."""
@@ -127,9 +116,13 @@ class Preset:
             ["setarch", "-R", "ctest", "--preset", self.name, "-j", str(places), "-R",
              f"^({'|'.join(parts)})$"])
         if right:
-            digests = self.digests()
-            known = {**self.passed(), **{name: digests[name] for name in names if name in digests}}
-            self.record.write_text(json.dumps(known, indent=1) + "\n")
+            self.keep(names)
+
+    def keep(self, names):
+        """Records that the named programs' tests passed."""
+        digests = self.digests()
+        known = {**self.passed(), **{name: digests[name] for name in names if name in digests}}
+        self.record.write_text(json.dumps(known, indent=1) + "\n")
 
     def passed(self):
         return json.loads(self.record.read_text()) if self.record.exists() else {}
@@ -196,6 +189,10 @@ def of_alignment(base):
 
 
 def main():
+    if sys.argv[1:2] == ["--passed"] and len(sys.argv) == 3:
+        preset = Preset(sys.argv[2], Stages())
+        preset.keep(preset.tests().keys() - {GATES})
+        return 0
     if sys.argv[1:2] == ["--help"] or len(sys.argv) > 2:
         print(__doc__)
         return 0 if sys.argv[1:2] == ["--help"] else 2
@@ -210,8 +207,10 @@ def main():
     if not (stages.passed and release.configure() and release.build()):
         return 1
     known = release.passed()
-    differ = {name for name, now in release.digests().items() if known.get(name) != now}
-    release.run(sorted((differ if of_alignment(base) else differ - {GATES}) | {ALWAYS}))
+    built = release.digests()
+    chosen = {name for name, now in built.items() if known.get(name) != now}
+    chosen |= mirrored(sources(changed, "app|hal|proc"), built)
+    release.run(sorted((chosen if of_alignment(base) else chosen - {GATES}) | {ALWAYS}))
     sanitized(changed, stages)
     stages.run("format", ["tests/support/check_format"])
     if sources(changed, "app|hal|proc"):
