@@ -8,11 +8,14 @@ places=$((3 * $(nproc)))
 # Prefix of the compile commands, such as nice.
 gently=()
 
+# Variables for CMake, such as -DORBWATCH_TESTS_OF_PROC=OFF.
+variables=()
+
 # build PRESET [TARGET...]: configures and compiles it.
 build() {
   local preset=$1 begin=$logs/$1-build.begin
   shift
-  stage "$preset-configure" cmake --preset "$preset" || return
+  stage "$preset-configure" cmake --preset "$preset" "${variables[@]}" || return
   touch "$begin"
   stage "$preset-build" "${gently[@]}" cmake --build --preset "$preset" ${1:+--target "$@"} || return
   tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
@@ -58,5 +61,6 @@ cases() {
   shift
   # Sanitizers need a fixed address layout.
   run_cases "$preset-tests" "$folder" setarch -R ctest --preset "$preset" -j "$places" "$@" \
-    "${junit[@]}" "$folder/cases.xml"
+    "${junit[@]}" "$folder/cases.xml" &&
+    tests/support/run_changed.py --passed "$preset"
 }
