@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "proc/align/brightness_samples.h"
+
 namespace orbwatch::align {
 namespace {
 
@@ -19,24 +21,15 @@ struct BrightnessWeights {
 constexpr float kRedWeight = 0.299F, kGreenWeight = 0.587F, kBlueWeight = 0.114F;
 
 BrightnessWeights weights_of(PixelFormat format) {
-  switch (format) {
-    case PixelFormat::Uyvy:
-      return {1, {1, 0, 0}};
-    case PixelFormat::Rgb:
-    case PixelFormat::Rgb16:
-      return {0, {kRedWeight, kGreenWeight, kBlueWeight}};
-    case PixelFormat::Bgr:
-    case PixelFormat::Bgra:
-      return {0, {kBlueWeight, kGreenWeight, kRedWeight}};
-    case PixelFormat::Yuyv:
-    case PixelFormat::Grey:
-    case PixelFormat::Y10:
-    case PixelFormat::Y12:
-    case PixelFormat::Y16:
-    case PixelFormat::Nv12:
-    case PixelFormat::Nv21:
-    case PixelFormat::I420:
+  switch (brightness_samples(format)) {
+    case BrightnessSamples::First:
       break;
+    case BrightnessSamples::Second:
+      return {1, {1, 0, 0}};
+    case BrightnessSamples::RedGreenBlue:
+      return {0, {kRedWeight, kGreenWeight, kBlueWeight}};
+    case BrightnessSamples::BlueGreenRed:
+      return {0, {kBlueWeight, kGreenWeight, kRedWeight}};
   }
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "proc/align/brightness_samples.h"
 #include "proc/align/first_plane.h"
 
 namespace orbwatch::align {
@@ -28,26 +29,15 @@ cv::Mat luminance_of(const Picture& picture) {
 
 cv::Mat luminance_of(const Picture& picture, const cv::Rect& part) {
   const cv::Mat samples = first_plane(picture)(part);
-  switch (picture.format) {
-    case PixelFormat::Yuyv:
-      return channel(samples, 0);
-    case PixelFormat::Uyvy:
+  switch (brightness_samples(picture.format)) {
+    case BrightnessSamples::First:
+      return samples.channels() == 1 ? samples : channel(samples, 0);
+    case BrightnessSamples::Second:
       return channel(samples, 1);
-    case PixelFormat::Rgb:
-    case PixelFormat::Rgb16:
+    case BrightnessSamples::RedGreenBlue:
       return grey(samples, cv::COLOR_RGB2GRAY);
-    case PixelFormat::Bgr:
-      return grey(samples, cv::COLOR_BGR2GRAY);
-    case PixelFormat::Bgra:
-      return grey(samples, cv::COLOR_BGRA2GRAY);
-    case PixelFormat::Grey:
-    case PixelFormat::Y10:
-    case PixelFormat::Y12:
-    case PixelFormat::Y16:
-    case PixelFormat::Nv12:
-    case PixelFormat::Nv21:
-    case PixelFormat::I420:
-      break;
+    case BrightnessSamples::BlueGreenRed:
+      return grey(samples, samples.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
   }
   return samples;
 }
