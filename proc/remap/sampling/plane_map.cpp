@@ -34,6 +34,21 @@ UvQuadratic in_halves(const UvQuadratic& q) {
           (q.curve * UvXy32{4, 8, 1, 2}) >> 1, (q.cross * UvXy32{2, 4, 2, 4}) >> 1};
 }
 
+constexpr UvXy32 kAlongX{1, 1, 0, 0}, kAlongY{0, 0, 1, 1};
+
+/// Half steps along one axis, from the same place on.
+UvQuadratic halved(const UvQuadratic& q, UvXy32 axis) {
+  return {q.value, q.slope >> axis, q.curve >> (axis << 1), q.cross >> 1};
+}
+
+/// The same from a quarter of a pixel before; `slope` and `curve`: those along the axis.
+Patch quarter_before(const UvQuadratic& q, UvXy32 axis, Uv64 slope, Uv64 curve) {
+  UvQuadratic half = halved(q, axis);
+  half.value -= (slope << (kSlopeShift - 2)) - (curve >> 4);
+  half.slope -= (axis != 0 ? q.curve : q.cross) >> (kSlopeShift + 2);
+  return Patch(half);
+}
+
 /// Half of a picture's coordinate; between two pixels' centres if it is centred.
 std::int32_t in_source(std::int32_t c, Siting siting) {
   if (siting == Siting::Full) return c;
@@ -97,37 +112,17 @@ Patch at_half_steps(Patch patch) {
 
 Patch at_half_steps_along_x(Patch patch) {
   const UvQuadratic& q = patch.axes();
-  const UvXy32 curve = q.curve >> (kSlopeShift + 2), cross = q.cross >> (kSlopeShift + 2);
-  const Uv64 before =
-      (Uv64{q.slope[0], q.slope[1]} << (kSlopeShift - 2)) - (Uv64{q.curve[0], q.curve[1]} >> 4);
-  return Patch(UvQuadratic{
-      q.value - before,
-      (q.slope >> UvXy32{1, 1, 0, 0}) - __builtin_shufflevector(curve, cross, 0, 1, 6, 7),
-      q.curve >> UvXy32{2, 2, 0, 0}, q.cross >> 1});
+  return quarter_before(q, kAlongX, Uv64{q.slope[0], q.slope[1]}, Uv64{q.curve[0], q.curve[1]});
 }
 
 Patch at_half_steps_along_y(Patch patch) {
   const UvQuadratic& q = patch.axes();
-  const UvXy32 curve = q.curve >> (kSlopeShift + 2), cross = q.cross >> (kSlopeShift + 2);
-  const Uv64 before =
-      (Uv64{q.slope[2], q.slope[3]} << (kSlopeShift - 2)) - (Uv64{q.curve[2], q.curve[3]} >> 4);
-  return Patch(UvQuadratic{
-      q.value - before,
-      (q.slope >> UvXy32{0, 0, 1, 1}) - __builtin_shufflevector(cross, curve, 0, 1, 6, 7),
-      q.curve >> UvXy32{0, 0, 2, 2}, q.cross >> 1});
+  return quarter_before(q, kAlongY, Uv64{q.slope[2], q.slope[3]}, Uv64{q.curve[2], q.curve[3]});
 }
 
-Patch at_half_rows(Patch patch) {
-  const UvQuadratic& q = patch.axes();
-  return Patch(UvQuadratic{q.value, q.slope >> UvXy32{0, 0, 1, 1}, q.curve >> UvXy32{0, 0, 2, 2},
-                           q.cross >> 1});
-}
+Patch at_half_rows(Patch patch) { return Patch(halved(patch.axes(), kAlongY)); }
 
-Patch at_half_columns(Patch patch) {
-  const UvQuadratic& q = patch.axes();
-  return Patch(UvQuadratic{q.value, q.slope >> UvXy32{1, 1, 0, 0}, q.curve >> UvXy32{2, 2, 0, 0},
-                           q.cross >> 1});
-}
+Patch at_half_columns(Patch patch) { return Patch(halved(patch.axes(), kAlongX)); }
 
 UvXy32 slope_at(const Patch& patch, int x, int y) {
   const UvQuadratic& q = patch.axes();
