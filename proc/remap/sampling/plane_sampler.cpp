@@ -13,8 +13,7 @@
 namespace orbwatch::remap {
 namespace {
 
-/// Planes that are one pixel wide or high are sampled by the scalar kernel
-/// only.
+/// Planes that are one pixel wide or high are sampled by the scalar kernel only.
 void sample_job(const Kernel& kernel, Layout layout, const PointJob& job) {
   const bool has_neighbours = job.source.width > 1 && job.source.height > 1;
   (has_neighbours ? kernel : scalar_kernel()).sample_points(layout, job);
@@ -42,8 +41,7 @@ SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& samplin
           picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
 }
 
-/// Buffer for samples at half steps along one axis, most of which are
-/// discarded.
+/// Buffer for samples at half steps along one axis, most of which are discarded.
 struct FineSamples {
   alignas(64) std::array<std::uint8_t, 2 * kTile * kTile * 4> bytes;
 
@@ -52,9 +50,8 @@ struct FineSamples {
   }
 };
 
-/// Prefetches the place to the right of a target of that width. Samples at half
-/// steps are read back as soon as they are written, behind all earlier stores:
-/// these must not wait for memory.
+/// Prefetches the place to the right of a target of that width. Samples at half steps are read back
+/// as soon as they are written, behind all earlier stores: these must not wait for memory.
 void prefetch_beside(const TargetPlane& target, int row_bytes) {
   const std::uint8_t* row = target.data + row_bytes;
   for (int y = 0; y < target.rows; ++y, row += target.stride) {
@@ -260,8 +257,8 @@ TargetPlane PlaneSampler::samples_of(const TargetPlane& target, TwiceAlong twice
           target.columns << (twice.x ? 1 : 0), target.rows << (twice.y ? 1 : 0)};
 }
 
-/// Samples blocks that do not fit their windows but may do so at half the step,
-/// along one axis or both; not worth it for a single block in a row.
+/// Samples blocks that do not fit their windows but may do so at half the step, along one axis or
+/// both; not worth it for a single block in a row.
 void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
                                 const TargetPlane& target) const {
   if (target.columns >= 2 * kBlock) {
@@ -272,8 +269,8 @@ void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
   sample_points(*kernel_, sampling_.layout, patch, source, target);
 }
 
-/// Samples with a kernel that keeps half of the pixels of a `fine` target.
-/// False: they do not fit windows.
+/// Samples with a kernel that keeps half of the pixels of a `fine` target. False: they do not fit
+/// windows.
 bool PlaneSampler::keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
                              const TargetPlane& fine, const TargetPlane& kept) const {
   BlockMap map;
@@ -293,8 +290,7 @@ bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& sourc
   return true;
 }
 
-/// A subsampled plane may be steep along x only. A patch that is steep along
-/// both axes needs both.
+/// A subsampled plane may be steep along x only. A patch that is steep along both axes needs both.
 bool PlaneSampler::sample_half_columns(const Patch& patch, const SourcePlane& source,
                                        const TargetPlane& target) const {
   const Patch half = at_half_columns(patch);

@@ -19,8 +19,8 @@
 
 namespace orbwatch::remap {
 
-/// Samples a target pixel by pixel at integer X, Y of a patch, also at the
-/// source's borders, where its outermost pixels are repeated. Reentrant.
+/// Samples a target pixel by pixel at integer X, Y of a patch, also at the source's borders, where
+/// its outermost pixels are repeated. Reentrant.
 void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
                    const SourcePlane& source, const TargetPlane& target);
 
@@ -28,11 +28,10 @@ void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
 void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
                    std::uint8_t black, const SourcePlane& source, const TargetPlane& target);
 
-/// The longest step along an axis, in pixels of the level that is read, for a
-/// single sample along it where pixels are means. A bilinear sample is itself a
-/// mean, and blurs: of a picture as a camera makes it, a single one is closer
-/// to the mean over the view's pixel up to this step, and two are beyond.
-/// Sharpening compensates that blur.
+/// The longest step along an axis, in pixels of the level that is read, for a single sample along
+/// it where pixels are means. A bilinear sample is itself a mean, and blurs: of a picture as a
+/// camera makes it, a single one is closer to the mean over the view's pixel up to this step, and
+/// two are beyond. Sharpening compensates that blur.
 inline constexpr double kLongestStep = 1.7;
 inline constexpr double kLongestSharpenedStep = 0.75;
 
@@ -47,8 +46,8 @@ struct Reading {
                             ///< Tile::interior
 };
 
-/// Samples tiles of one PlaneSampling. Refers to the pictures; holds the data
-/// that all tiles have in common. Reentrant.
+/// Samples tiles of one PlaneSampling. Refers to the pictures; holds the data that all tiles have
+/// in common. Reentrant.
 class PlaneSampler {
  public:
   PlaneSampler() = default;
@@ -68,13 +67,11 @@ class PlaneSampler {
   /// Prefetches the samples of an area of the picture.
   void fetch(const SourceArea& area) const;
 
-  /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip
-  /// level that is read.
+  /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip level that is read.
   void sample(const Patch& patch, Reading reading, const TargetPlane& target) const;
 
-  /// The same for most tiles: not averaged, in windows, of a layout that
-  /// has_blocks(), at least 8 pixels wide. Inlined alone: the rarer paths would
-  /// cost these tiles registers.
+  /// The same for most tiles: not averaged, in windows, of a layout that has_blocks(), at least 8
+  /// pixels wide. Inlined alone: the rarer paths would cost these tiles registers.
   [[gnu::always_inline]] void sample_blocks(const Patch& patch, const TargetPlane& target) const {
     const auto sample = [&](const Patch& map) __attribute__((always_inline)) {
       if (!sample_blocks(map, sources_[0], target)) sample_steep(map, sources_[0], target);
@@ -82,8 +79,8 @@ class PlaneSampler {
     sampling_.x == Siting::Full ? sample(patch) : sample(on_plane(patch, sampling_));
   }
 
-  /// Fills a target pixel by pixel, from coordinates in the mip level that is
-  /// read. Undefined pixels become `black`.
+  /// Fills a target pixel by pixel, from coordinates in the mip level that is read. Undefined
+  /// pixels become `black`.
   void sample(const CoordinateTile& coordinates, Reading reading, std::uint8_t black,
               const TargetPlane& target) const;
 
