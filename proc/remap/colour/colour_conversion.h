@@ -39,7 +39,8 @@ class YuvToRgb {
     green_v_ = fixed(2 * (1 - kr) * kr / kg * c_gain);
     blue_u_ = fixed(2 * (1 - kb) * c_gain);
     constexpr int kNeutral = 128;
-    black_ = (1 << (kBits - 1)) - (full ? 0 : 16) * y_;
+    floor_ = full ? 0 : 16;
+    black_ = (1 << (kBits - 1)) - floor_ * y_;
     red_ = black_ - kNeutral * red_v_;
     green_ = black_ + kNeutral * (green_u_ + green_v_);
     blue_ = black_ - kNeutral * blue_u_;
@@ -73,8 +74,7 @@ class YuvToRgb {
 
   /// The same for a run.
   [[gnu::always_inline]] SampleRun luma(const SampleRun& luminance) const {
-    const EvenOdd y(luminance);
-    return clipped_sums(Lanes(0).plus(y.even, y_), Lanes(0).plus(y.odd, y_), Lanes(black_));
+    return scaled(luminance, floor_, y_);
   }
 
   constexpr YuvCoefficients coefficients() const {
@@ -92,6 +92,7 @@ class YuvToRgb {
     return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
   }
 
+  std::uint8_t floor_;
   std::uint16_t y_;
   std::uint16_t red_v_;
   std::uint16_t green_u_;

@@ -74,4 +74,12 @@ struct Lanes {
   return std::bit_cast<SampleRun>(words);
 }
 
+/// (sample - black) q14 of each, rounded and clipped.
+[[gnu::always_inline]] inline SampleRun scaled(const SampleRun& samples, std::uint8_t black,
+                                               std::uint16_t q14) {
+  const EvenOdd each(samples);
+  const std::int32_t offset = (1 << 13) - black * q14;
+  return clipped_sums(Lanes(0).plus(each.even, q14), Lanes(0).plus(each.odd, q14), Lanes(offset));
+}
+
 }  // namespace orbwatch::remap

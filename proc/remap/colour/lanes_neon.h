@@ -59,4 +59,21 @@ struct Lanes {
   return run;
 }
 
+/// (sample - black) q14 of each, rounded and clipped. The rounding product keeps a Q15 number's
+/// integer part: samples are doubled, not the factor.
+[[gnu::always_inline]] inline SampleRun scaled(const SampleRun& samples, std::uint8_t black,
+                                               std::uint16_t q14) {
+  const uint8x16_t all = vld1q_u8(samples.data());
+  const uint16x8_t twice_black = vdupq_n_u16(2 * black);
+  const auto product = [&](uint16x8_t twice) {
+    const int16x8_t steps = vreinterpretq_s16_u16(vsubq_u16(twice, twice_black));
+    return vqrdmulhq_n_s16(steps, static_cast<std::int16_t>(q14));
+  };
+  const int16x8_t low = product(vshll_n_u8(vget_low_u8(all), 1));
+  const int16x8_t high = product(vshll_high_n_u8(all, 1));
+  SampleRun run;
+  vst1q_u8(run.data(), vqmovun_high_s16(vqmovun_s16(low), high));
+  return run;
+}
+
 }  // namespace orbwatch::remap
