@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -28,6 +29,14 @@ inline constexpr int kChromaBits = 16 + 2;
 inline constexpr std::int32_t kChromaOffset =
     (kNeutralChroma << kChromaBits) + (1 << (kChromaBits - 1));
 /// @}
+
+/// The chroma of four times a mean colour, rounded.
+constexpr std::uint8_t chroma_of(const ChromaWeights& weights, std::int32_t red, std::int32_t green,
+                                 std::int32_t blue) {
+  const std::int32_t sum =
+      weights.red * red + weights.green * green + weights.blue * blue + kChromaOffset;
+  return static_cast<std::uint8_t>(std::min(sum >> kChromaBits, 255));
+}
 
 /// Steps of the full range per step of the limited one, which has 224, Q14.
 inline constexpr int kStretchBits = 14;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "proc/remap/colour/chroma.h"
 #include "proc/remap/colour/luma.h"
 #include "proc/remap/colour/run.h"
 
@@ -41,8 +42,9 @@ ColourMap::ColourMap(const Table& table, double low, double high)
     const auto& [red, green, blue] = table[entry];
     entries.rgb.set(i, {red, green, blue});
     entries.bgr.set(i, {blue, green, red});
-    const std::uint8_t grey = luma(table[entry].data());
-    entries.grey.set(i, {grey, grey, grey});
+    entries.yuv.set(
+        i, {luma(table[entry].data()), chroma_of(kWeightsOfU, 4 * red, 4 * green, 4 * blue),
+            chroma_of(kWeightsOfV, 4 * red, 4 * green, 4 * blue)});
   };
   for (std::size_t i = 0; i < table.size(); ++i) {
     set(entries_, i, i);
@@ -58,8 +60,29 @@ std::size_t ColourMap::entry_of(std::int32_t value) const {
 
 const ColourTable& ColourMap::table(const Entries& entries, int channels, PixelFormat order) {
   assert(channels == 1 || order == PixelFormat::Rgb || order == PixelFormat::Bgr);
-  if (channels == 1) return entries.grey;
+  if (channels == 1) return entries.yuv;
   return order == PixelFormat::Bgr ? entries.bgr : entries.rgb;
+}
+
+/// Finds the indices of a tile's values.
+[[gnu::always_inline]] inline void ColourMap::find(const ImageView<const std::uint16_t>& values,
+                                                   Indices& indices, const Kernel& kernel) const {
+  std::uint8_t* entries = indices.entries.data();
+  const bool is_within = low_ >= 0 && high_ <= UINT16_MAX;
+  if (values.width < kRun || !is_within) {
+    for (int y = 0; y < values.height; ++y, entries += kRun) {
+      const std::uint16_t* const row = values.row(y);
+      for (int x = 0; x < values.width; ++x) {
+        entries[x] = static_cast<std::uint8_t>(entry_of(row[x]));
+      }
+    }
+    return;
+  }
+  const ValueScale scale{static_cast<std::uint16_t>(low_), static_cast<std::uint16_t>(high_),
+                         static_cast<std::uint16_t>(1U << shift_), scale_};
+  if (kKernelsConvert && kernel.find_entries) return kernel.find_entries(scale, values, entries);
+  const ImageView<const std::uint16_t> from = values;  // which `entries` cannot overlap
+  for (int y = 0; y < from.height; ++y) find_entries(scale, from.row(y), entries + kRun * y);
 }
 
 void ColourMap::apply(const ImageView<const std::uint8_t>& values,
@@ -75,26 +98,34 @@ void ColourMap::apply(const ImageView<const std::uint8_t>& values,
 void ColourMap::apply(const ImageView<const std::uint16_t>& values,
                       const ImageView<std::uint8_t>& out, const Kernel& kernel,
                       PixelFormat order) const {
-  const bool is_within = low_ >= 0 && high_ <= UINT16_MAX;
   const ColourTable& table = ColourMap::table(entries_, out.channels, order);
-  alignas(64) std::array<std::uint8_t, kRun * kTile> entries;
-  if (values.width == kRun && is_within) {
-    const ValueScale scale{static_cast<std::uint16_t>(low_), static_cast<std::uint16_t>(high_),
-                           static_cast<std::uint16_t>(1U << shift_), scale_};
-    if (kKernelsConvert && kernel.find_entries) {
-      kernel.find_entries(scale, values, entries.data());
-    } else {
-      for (int y = 0; y < values.height; ++y) {
-        find_entries(scale, values.row(y), &entries[kRun * y]);
-      }
-    }
-    return kernel.look_up(table, {entries.data(), kRun, values.height}, out);
-  }
+  Indices indices;
+  find(values, indices, kernel);
+  const std::uint8_t* const first = indices.entries.data();
+  if (values.width == kRun) return kernel.look_up(table, {first, kRun, values.height}, out);
   for (int y = 0; y < values.height; ++y) {
-    const std::uint16_t* const row = values.row(y);
-    for (int x = 0; x < values.width; ++x) entries[x] = static_cast<std::uint8_t>(entry_of(row[x]));
-    table.look_up(entries.data(), values.width, out.row(y));
+    table.look_up(first + kRun * y, values.width, out.row(y));
   }
+}
+
+void ColourMap::apply(const ImageView<const std::uint8_t>& values, const Yuv420Planes& out,
+                      const Kernel& kernel) const {
+  if (values.width == kRun && values.height == kTile) {
+    return kernel.look_up_yuv420(of_bytes_.yuv, {values.data, values.stride, kTile}, out);
+  }
+  Indices indices{};
+  for (int y = 0; y < values.height; ++y) {
+    std::copy_n(values.row(y), values.width, &indices.entries[kRun * y]);
+  }
+  kernel.look_up_yuv420(of_bytes_.yuv, indices.runs(), out);
+}
+
+void ColourMap::apply(const ImageView<const std::uint16_t>& values, const Yuv420Planes& out,
+                      const Kernel& kernel) const {
+  Indices indices;
+  if (values.width < kRun || values.height < kTile) indices = {};
+  find(values, indices, kernel);
+  kernel.look_up_yuv420(entries_.yuv, indices.runs(), out);
 }
 
 }  // namespace orbwatch::remap

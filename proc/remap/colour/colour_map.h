@@ -7,6 +7,7 @@
 #include "proc/image/image_view.h"
 #include "proc/image/pixel_format.h"
 #include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/yuv420_tile.h"
 #include "proc/remap/grid/coordinate.h"
 #include "proc/remap/kernel/kernel.h"
 
@@ -28,14 +29,30 @@ class ColourMap {
   void apply(const ImageView<const std::uint16_t>& values, const ImageView<std::uint8_t>& out,
              const Kernel& kernel, PixelFormat order = PixelFormat::Rgb) const;
 
+  /// The same in I420 of kJfif, for a whole tile; where `values` are less, the rest of `out` has no
+  /// meaning. Each colour's Y, U and V are rounded before the mean chroma of two by two pixels is.
+  void apply(const ImageView<const std::uint8_t>& values, const Yuv420Planes& out,
+             const Kernel& kernel) const;
+  void apply(const ImageView<const std::uint16_t>& values, const Yuv420Planes& out,
+             const Kernel& kernel) const;
+
  private:
   /// Colours by index in the table, or by the value of an 8 bit picture.
   struct Entries {
-    ColourTable rgb, bgr, grey{1};
+    ColourTable rgb, bgr;
+    ColourTable yuv{1};  ///< Y alone is looked up as one channel
+  };
+  /// Runs of indices in a tile.
+  struct Indices {
+    IndexRuns runs() const { return {entries.data(), kRun, kTile}; }
+
+    alignas(64) std::array<std::uint8_t, kRun * kTile> entries;
   };
 
   static const ColourTable& table(const Entries& entries, int channels, PixelFormat order);
   std::size_t entry_of(std::int32_t value) const;
+  void find(const ImageView<const std::uint16_t>& values, Indices& indices,
+            const Kernel& kernel) const;
 
   std::int32_t low_;
   std::int32_t high_;

@@ -27,12 +27,8 @@ inline ChromaRuns chroma_run(const std::uint8_t* upper, const std::uint8_t* lowe
   for (int i = 0; i < kRun / 2; ++i) {
     const std::int32_t red = r[2 * i] + r[2 * i + 1], green = g[2 * i] + g[2 * i + 1],
                        blue = b[2 * i] + b[2 * i + 1];
-    const auto weighted = [&](const ChromaWeights& w) {
-      const std::int32_t sum = w.red * red + w.green * green + w.blue * blue + kChromaOffset;
-      return static_cast<std::uint8_t>(std::min(sum >> kChromaBits, 255));
-    };
-    chroma.u[i] = weighted(kWeightsOfU);
-    chroma.v[i] = weighted(kWeightsOfV);
+    chroma.u[i] = chroma_of(kWeightsOfU, red, green, blue);
+    chroma.v[i] = chroma_of(kWeightsOfV, red, green, blue);
   }
   return chroma;
 }

@@ -6,11 +6,9 @@
 #include "proc/image/image_view.h"
 #include "proc/image/picture.h"
 #include "proc/remap/colour/tile_conversion.h"
+#include "proc/remap/colour/yuv420_tile.h"
 
 namespace orbwatch::remap {
-
-/// Colour space of JPEG (JFIF) and of I420 views.
-inline constexpr ColourSpace kJfif{ColourMatrix::Bt601, ColourRange::Full};
 
 /// Writes a tile's Rgb pixels into its area of `out`, I420 in kJfif: Y as luma(), the chroma of
 /// each two by two pixels as that of their mean colour, rounded. The area's place and size are
@@ -29,5 +27,9 @@ constexpr bool is_yuv420(PixelFormat format, ColourSpace colour_space) {
 /// converted to the full range. The area's place and size are even. Reentrant.
 void write_yuv420(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
                   const MutablePicture& out, const TileArea& area);
+
+/// Copies a tile's planes, as far as they lie in its area of `out`, I420. The area's place and size
+/// are even. Reentrant.
+void write_yuv420(const Yuv420Planes& tile, const MutablePicture& out, const TileArea& area);
 
 }  // namespace orbwatch::remap

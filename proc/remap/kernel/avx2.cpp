@@ -16,6 +16,7 @@
 #include "proc/remap/kernel/look_up.h"
 #include "proc/remap/kernel/point_walk.h"
 #include "proc/remap/kernel/tile_mix.h"
+#include "proc/remap/kernel/yuv420_mix.h"
 
 namespace orbwatch::remap::avx2 {
 namespace {
@@ -382,7 +383,9 @@ constexpr Kernel kKernel{
     .locate = walk_places<PointLanes>,
     .points = kPointWalks,
     .mix = mix_tiles,
+    .mix_yuv420 = mix_yuv420_tiles,
     .look_up = look_up_words,
+    .look_up_yuv420 = look_up_yuv420_planes,
     .fetches_ahead = true,
 };
 

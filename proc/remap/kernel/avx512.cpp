@@ -24,6 +24,7 @@
 #include "proc/remap/kernel/look_up_avx512.h"
 #include "proc/remap/kernel/mix_avx512.h"
 #include "proc/remap/kernel/point_walk.h"
+#include "proc/remap/kernel/yuv420_mix.h"
 #include "proc/remap/kernel/yuv_avx512.h"
 
 namespace orbwatch::remap::avx512 {
@@ -469,7 +470,9 @@ constexpr Kernel kKernel{
     .locate = walk_places<PointLanes>,
     .points = kPointWalks,
     .mix = mix_tiles,
+    .mix_yuv420 = mix_yuv420_tiles,
     .look_up = look_up_colours,
+    .look_up_yuv420 = look_up_yuv420,
     .find_entries = find_entries,
     .write_rgb = write_rgb,
     .even_columns = kTiles<Kept::EvenColumns>,

@@ -11,6 +11,7 @@
 #include "proc/image/image_view.h"
 #include "proc/image/result.h"
 #include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/yuv420_tile.h"
 #include "proc/remap/colour/yuv_rows.h"
 #include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
@@ -51,9 +52,12 @@ struct Kernel {
                                const ImageView<const std::uint16_t>& values, std::uint8_t* entries);
   using LookUp = void (*)(const ColourTable& table, const IndexRuns& runs,
                           const ImageView<std::uint8_t>& out);
+  using LookUpYuv420 = void (*)(const ColourTable& table, const IndexRuns& runs,
+                                const Yuv420Planes& out);
   using WriteRgb = void (*)(const YuvRows& yuv, const YuvCoefficients& coefficients,
                             std::uint8_t* out, std::ptrdiff_t stride);
   using Mix = void (*)(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out);
+  using MixYuv420 = void (*)(std::span<const MixedTile> tiles, const Yuv420Planes& out);
 
   std::string_view name;
   /// Functions indexed by Layout that fill all blocks of the job. Each reads 8x8 source pixels from
@@ -69,9 +73,15 @@ struct Kernel {
   /// interpolated linearly and rounded, for each n, so that they add up to 255 in every pixel too;
   /// the mean by these is rounded to nearest. `out` is one tile of 1 or 3 channels. Reentrant.
   Mix mix;
+  /// The same for samples of Yuv420Tile. The sums of shares for a sample of chroma are the means of
+  /// those of its four pixels, rounded to nearest. Reentrant.
+  MixYuv420 mix_yuv420;
   /// Writes the colours of runs of kRun indices into rows of `out`, which has the table's channels.
   /// Reentrant.
   LookUp look_up;
+  /// Writes a tile from kTile runs of kRun indices into a table of Y, U and V: the chroma of each
+  /// two by two pixels is the mean of theirs, rounded to nearest. Reentrant.
+  LookUpYuv420 look_up_yuv420;
   /// Writes the table indices of runs of values, at most kTile of them, run after run. Null where
   /// compilers generate equally good code for ColourMap's own loop. Reentrant.
   FindEntries find_entries = nullptr;

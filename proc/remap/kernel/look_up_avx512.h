@@ -10,6 +10,7 @@
 #include "proc/image/image_view.h"
 #include "proc/remap/colour/colour_table.h"
 #include "proc/remap/colour/run.h"
+#include "proc/remap/colour/yuv420_tile.h"
 #include "proc/remap/kernel/interleave_avx512.h"
 
 // Colour lookup of the kernel for AVX-512 with VBMI: the tables of three channels fill twelve
@@ -92,6 +93,33 @@ inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
   }
   for (; rows > 0; --rows, indices += runs.stride, to += out.stride) {
     table.look_up(indices, kRun, to);
+  }
+}
+
+/// Stores the means of each two by two of four rows' samples, rounded.
+inline void store_chroma(__m512i samples, std::uint8_t* upper, std::uint8_t* lower) {
+  const __m512i pairs = _mm512_maddubs_epi16(samples, _mm512_set1_epi8(1));
+  const __m512i other_rows = _mm512_shuffle_i32x4(pairs, pairs, _MM_SHUFFLE(2, 3, 0, 1));
+  const __m512i sums = _mm512_add_epi16(_mm512_add_epi16(pairs, other_rows), _mm512_set1_epi16(2));
+  const __m256i means = _mm512_cvtepi16_epi8(_mm512_srli_epi16(sums, 2));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(upper), _mm256_castsi256_si128(means));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(lower), _mm256_extracti128_si256(means, 1));
+}
+
+/// Implements Kernel::look_up_yuv420.
+inline void look_up_yuv420(const ColourTable& table, const IndexRuns& runs,
+                           const Yuv420Planes& out) {
+  const PlaneTable luma(table.planes[0]), u(table.planes[1]), v(table.planes[2]);
+  for (int y = 0; y < kTile; y += 4) {
+    const __m512i index = indices_at(runs.first + y * runs.stride, runs.stride);
+    const __m512i rows = luma[index];
+    const auto row = [&](int n) { return reinterpret_cast<__m128i*>(out.y.row(y + n)); };
+    _mm_storeu_si128(row(0), _mm512_castsi512_si128(rows));
+    _mm_storeu_si128(row(1), _mm512_extracti32x4_epi32(rows, 1));
+    _mm_storeu_si128(row(2), _mm512_extracti32x4_epi32(rows, 2));
+    _mm_storeu_si128(row(3), _mm512_extracti32x4_epi32(rows, 3));
+    store_chroma(u[index], out.u.row(y / 2), out.u.row(y / 2 + 1));
+    store_chroma(v[index], out.v.row(y / 2), out.v.row(y / 2 + 1));
   }
 }
 

@@ -10,29 +10,43 @@
 #include "proc/image/image_view.h"
 #include "proc/remap/colour/colour_table.h"
 #include "proc/remap/colour/run.h"
+#include "proc/remap/colour/yuv420_tile.h"
 
 // Colour lookup of the kernel for NEON: the table of a channel fills half of the registers.
 
 namespace orbwatch::remap::neon {
 namespace {
 
-/// Looks up one channel of all runs.
-[[gnu::always_inline]] inline void look_up_plane(const std::array<std::uint8_t, 256>& plane,
-                                                 const IndexRuns& runs, std::uint8_t* out,
-                                                 std::ptrdiff_t out_stride) {
+/// Calls `walk` with a function that finds 16 indices' entries in the table of a channel. The
+/// table's parts are variables, since g++ would keep those of an object in memory.
+template <class Walk>
+[[gnu::always_inline]] inline void with_table(const std::array<std::uint8_t, 256>& plane,
+                                              const Walk& walk) {
   const uint8x16x4_t first = vld1q_u8_x4(&plane[0]), second = vld1q_u8_x4(&plane[64]),
                      third = vld1q_u8_x4(&plane[128]), fourth = vld1q_u8_x4(&plane[192]);
-  const std::uint8_t* indices = runs.first;
-#pragma GCC unroll 4
-  for (int rows = runs.rows; rows > 0; --rows, indices += runs.stride, out += out_stride) {
+  walk([&](const std::uint8_t* indices) __attribute__((always_inline)) {
     const uint8x16_t index = vld1q_u8(indices);
     // An index beyond its part of the table keeps the earlier result.
     uint8x16_t found = vqtbl4q_u8(first, index);
     found = vqtbx4q_u8(found, second, vsubq_u8(index, vdupq_n_u8(64)));
     found = vqtbx4q_u8(found, third, vsubq_u8(index, vdupq_n_u8(128)));
-    found = vqtbx4q_u8(found, fourth, vsubq_u8(index, vdupq_n_u8(192)));
-    vst1q_u8(out, found);
-  }
+    return vqtbx4q_u8(found, fourth, vsubq_u8(index, vdupq_n_u8(192)));
+  });
+}
+
+/// Looks up one channel of all runs.
+[[gnu::always_inline]] inline void look_up_plane(const std::array<std::uint8_t, 256>& plane,
+                                                 const IndexRuns& runs, std::uint8_t* out,
+                                                 std::ptrdiff_t out_stride) {
+  with_table(
+      plane, [&](const auto& entries) __attribute__((always_inline)) {
+        const std::uint8_t* indices = runs.first;
+        std::uint8_t* to = out;
+#pragma GCC unroll 4
+        for (int rows = runs.rows; rows > 0; --rows, indices += runs.stride, to += out_stride) {
+          vst1q_u8(to, entries(indices));
+        }
+      });
 }
 
 /// Implements Kernel::look_up: one channel after the other, since the registers do not hold three
@@ -49,6 +63,30 @@ inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
         {vld1q_u8(found[0] + at), vld1q_u8(found[1] + at), vld1q_u8(found[2] + at)}};
     vst3q_u8(to, pixels);
   }
+}
+
+/// Looks up a channel of chroma: the means of each two by two indices' entries.
+[[gnu::always_inline]] inline void look_up_chroma(const std::array<std::uint8_t, 256>& plane,
+                                                  const IndexRuns& runs, Yuv420Planes::Plane out) {
+  with_table(
+      plane, [&](const auto& entries) __attribute__((always_inline)) {
+        const std::uint8_t* indices = runs.first;
+        std::uint8_t* to = out.first;
+#pragma GCC unroll 4
+        for (int y = 0; y < Yuv420Tile::kChromaRows; ++y, to += out.stride) {
+          const uint8x16_t upper = entries(indices), lower = entries(indices + runs.stride);
+          vst1_u8(to, vrshrn_n_u16(vpadalq_u8(vpaddlq_u8(upper), lower), 2));
+          indices += 2 * runs.stride;
+        }
+      });
+}
+
+/// Implements Kernel::look_up_yuv420.
+inline void look_up_yuv420(const ColourTable& table, const IndexRuns& runs,
+                           const Yuv420Planes& out) {
+  look_up_plane(table.planes[0], {runs.first, runs.stride, kTile}, out.y.first, out.y.stride);
+  look_up_chroma(table.planes[1], runs, out.u);
+  look_up_chroma(table.planes[2], runs, out.v);
 }
 
 }  // namespace

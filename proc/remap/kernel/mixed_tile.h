@@ -16,7 +16,7 @@ using CornerShares = std::array<std::uint8_t, 4>;
 
 /// One source of a mixed tile.
 struct MixedTile {
-  const std::uint8_t* samples = nullptr;  ///< rows of kTile pixels
+  const std::uint8_t* samples = nullptr;  ///< rows of kTile pixels, or those of a Yuv420Tile
   CornerShares shares{};
 };
 
@@ -33,23 +33,29 @@ template <std::size_t Count>
   return shared;
 }
 
+/// Calls `mix<Count>()` for 1 to kMaxSources sources.
+template <class Mix>
+[[gnu::always_inline]] inline void with_count(std::size_t count, const Mix& mix) {
+  static_assert(kMaxSources == 4);
+  switch (count) {
+    case 1:
+      return mix.template operator()<1>();
+    case 2:
+      return mix.template operator()<2>();
+    case 3:
+      return mix.template operator()<3>();
+    default:
+      return mix.template operator()<4>();
+  }
+}
+
 /// Calls `mix<Channels, Count>()` for pictures of 1 or 3 channels and 1 to kMaxSources sources.
 template <class Mix>
 [[gnu::always_inline]] inline void with_constants(int channels, std::size_t count, const Mix& mix) {
-  static_assert(kMaxSources == 4);
-  const auto of_channels = [&]<int Channels>() __attribute__((always_inline)) {
-    switch (count) {
-      case 1:
-        return mix.template operator()<Channels, 1>();
-      case 2:
-        return mix.template operator()<Channels, 2>();
-      case 3:
-        return mix.template operator()<Channels, 3>();
-      default:
-        return mix.template operator()<Channels, 4>();
-    }
-  };
-  channels == 1 ? of_channels.template operator()<1>() : of_channels.template operator()<3>();
+  with_count(
+      count, [&]<std::size_t Count>() __attribute__((always_inline)) {
+        channels == 1 ? mix.template operator()<1, Count>() : mix.template operator()<3, Count>();
+      });
 }
 
 }  // namespace orbwatch::remap

@@ -21,6 +21,7 @@
 #include "proc/remap/kernel/neon_memory.h"
 #include "proc/remap/kernel/point_walk.h"
 #include "proc/remap/kernel/tile_mix.h"
+#include "proc/remap/kernel/yuv420_mix.h"
 
 namespace orbwatch::remap::neon {
 namespace {
@@ -383,7 +384,9 @@ constexpr Kernel kKernel{
     .locate = walk_places<PointLanes>,
     .points = kPointWalks,
     .mix = mix_tiles,
+    .mix_yuv420 = mix_yuv420_tiles,
     .look_up = look_up_colours,
+    .look_up_yuv420 = look_up_yuv420,
     .means_along_x = kMeans<Mean::AlongX>,
     .means_along_y = kMeans<Mean::AlongY>,
     .means_of_four = kMeans<Mean::OfFour>,

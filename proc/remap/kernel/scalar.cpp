@@ -7,6 +7,7 @@
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/look_up.h"
 #include "proc/remap/kernel/tile_mix.h"
+#include "proc/remap/kernel/yuv420_mix.h"
 
 namespace orbwatch::remap::scalar {
 namespace {
@@ -164,7 +165,9 @@ constexpr Kernel kKernel{
     .points = by_layout<kLayouts>(
         []<Layout layout>() -> Kernel::Points { return sample_points<layout>; }),
     .mix = mix_tiles,
+    .mix_yuv420 = mix_yuv420_tiles,
     .look_up = look_up_words,
+    .look_up_yuv420 = look_up_yuv420_planes,
 };
 
 }  // namespace orbwatch::remap::scalar

@@ -56,6 +56,7 @@ class Merger {
       if (sources[n].pictures.empty()) continue;
       delivering_ |= set_of(n);
       tiles_[n].emplace(sources[n], out.format, plan.interpolation, kernel);
+      if (tiles_[n]->writes_yuv420()) yuv420_ |= set_of(n);
     }
   }
 
@@ -106,7 +107,7 @@ class Merger {
   }
 
   void write_alone(int tx, int ty, std::size_t n, const TileArea& area) const {
-    if (tiles_[n]->writes_yuv420()) {
+    if ((yuv420_ & set_of(n)) != 0) {
       tiles_[n]->write_yuv420(tx, ty, out_, area);
     } else {
       show(area, [&](const MutablePicture& out, const TileArea& place) {
@@ -139,6 +140,9 @@ class Merger {
   }
 
   [[gnu::noinline]] void mix(int tx, int ty, SourceSet sources, const TileArea& area) const {
+    if constexpr (sizeof(T) == 1 && Channels == 3) {
+      if ((sources & ~yuv420_) == 0) return mix_yuv420(tx, ty, sources, area);
+    }
     if constexpr (sizeof(T) == 1) {
       std::array<Tile, kMaxSources> pictures;
       std::array<MixedTile, kMaxSources> mixed;
@@ -153,6 +157,23 @@ class Merger {
       });
       fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
     }
+  }
+
+  /// Mixes a tile of an I420 view in its own format. Other tiles of such a view are mixed as R'G'B'
+  /// and then converted: those with a source in other colours or of matched exposure, each of which
+  /// would be converted before mixing, and blended ones, few in a view, where a pixel that one
+  /// source does not see would share its chroma with pixels that it does.
+  [[gnu::noinline]] void mix_yuv420(int tx, int ty, SourceSet sources, const TileArea& area) const {
+    std::array<Yuv420Tile, kMaxSources> pictures;
+    std::array<MixedTile, kMaxSources> mixed;
+    std::size_t count = 0;
+    for_each(sources, [&](std::size_t n) {
+      tiles_[n]->write_yuv420(tx, ty, pictures[count].picture(), {0, 0, kTile, kTile});
+      mixed[count] = {pictures[count].samples.data(), plan_.blend->corners(n, tx, ty)};
+      ++count;
+    });
+    kernel_.mix_yuv420({mixed.data(), count}, planes_at(out_, area.x, area.y));
+    fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
   }
 
   [[gnu::noinline]] void blend(int tx, int ty, SourceSet sources, const TileArea& area) const {
@@ -227,6 +248,7 @@ class Merger {
   const ImageView<std::uint8_t>& validity_;
   SourceSet delivering_ = 0;
   SourceSet measured_ = 0;
+  SourceSet yuv420_ = 0;  ///< sources whose tiles need no conversion to I420
   std::array<std::optional<SourceTiles>, kMaxSources> tiles_;  ///< set for delivering_
 };
 

@@ -52,8 +52,9 @@ struct MergePlan {
 /// is that of `unseen`.
 ///
 /// The view is Rgb, Bgr, Grey or, of even size, I420 in kJfif, for sources of any format but Rgb16,
-/// or has the one format of all sources: Y16 or Rgb16. I420 is converted tile by tile or, for a
-/// 4:2:0 source in BT.601 that alone fills a tile, sampled without conversion. Grey is the
+/// or has the one format of all sources: Y16 or Rgb16. A tile of I420 is written without conversion
+/// where its sources cover it, alone or each with its share, and all are 4:2:0 in BT.601 of
+/// unmatched exposure or mapped to colours; other tiles are converted from Rgb. Grey is the
 /// luminance of the sources: for YUV sampled alone, in full range; else luma by BT.601 of colours.
 /// Without data in `out` only measured planes and validity are written. Reentrant; different rows
 /// may be filled at the same time, with the same result.

@@ -28,10 +28,12 @@ SourceTiles::SourceTiles(const MergedSource& source, PixelFormat view, Interpola
       is_wide_(info(format_).bytes_per_sample() == 2),
       is_mapped_(colour_ == ColourModel::Luminance && source.colours != nullptr),
       is_dimmed_(colour_ == ColourModel::Rgb && view == PixelFormat::Grey),
+      writes_yuv420_(view == PixelFormat::I420 &&
+                     (is_mapped_ || (source.match == nullptr &&
+                                     is_yuv420(format_, source.pictures.front().colour_space)))),
       tiles_(*source.grid, source.pictures, interpolation, kernel,
              view == PixelFormat::Grey ? luminance() : SampledPlanes::All) {
-  const ColourSpace colour_space = source.pictures.front().colour_space;
-  if (view == PixelFormat::I420 && is_yuv420(format_, colour_space) && source.match == nullptr) {
+  if (writes_yuv420_ && !is_mapped_) {
     yuv420_tiles_.emplace(*source.grid, source.pictures, interpolation, kernel,
                           SampledPlanes::Yuv420);
   }
@@ -46,6 +48,10 @@ SampledPlanes SourceTiles::luminance() const {
 
 void SourceTiles::write_yuv420(int tx, int ty, const MutablePicture& out,
                                const TileArea& area) const {
+  if (is_mapped_) {
+    return is_wide_ ? write_mapped_yuv420<std::uint16_t>(tx, ty, out, area)
+                    : write_mapped_yuv420<std::uint8_t>(tx, ty, out, area);
+  }
   yuv420_tiles_->write(tx, ty, out, area);
   measure(tx, ty);
 }
@@ -70,20 +76,40 @@ void SourceTiles::measure(int tx, int ty) const {
                               : measured_tiles_->write(tx, ty, source_.measured, place);
 }
 
+/// The values of a tile that are mapped to colours: those of the measured plane, else sampled into
+/// `tile`.
+template <class T>
+[[gnu::always_inline]] inline ImageView<T> SourceTiles::values_of(int tx, int ty,
+                                                                  TilePicture<T, 1>& tile) const {
+  const TileArea place = area_of(*source_.grid, tx, ty);
+  if (is_measured(source_)) {
+    measure(tx, ty);
+    return part(source_.measured.samples<T>(), place);
+  }
+  const TileArea whole{0, 0, place.columns, place.rows};
+  tiles_.write(tx, ty, picture_of(format_, tile.view()), whole);
+  return part(tile.view(), whole);
+}
+
 template <class T>
 void SourceTiles::write_mapped(int tx, int ty, const MutablePicture& out,
                                const TileArea& area) const {
-  const TileArea place = area_of(*source_.grid, tx, ty);
   TilePicture<T, 1> tile;
-  ImageView<T> values = tile.view();
-  if (is_measured(source_)) {
-    measure(tx, ty);
-    values = part(source_.measured.samples<T>(), place);
-  } else {
-    tiles_.write(tx, ty, picture_of(format_, values), {0, 0, place.columns, place.rows});
-    values = part(values, {0, 0, place.columns, place.rows});
+  source_.colours->apply(values_of(tx, ty, tile), part(out.samples<std::uint8_t>(), area), kernel_,
+                         out.format);
+}
+
+template <class T>
+void SourceTiles::write_mapped_yuv420(int tx, int ty, const MutablePicture& out,
+                                      const TileArea& area) const {
+  TilePicture<T, 1> tile;
+  const ImageView<T> values = values_of(tx, ty, tile);
+  if (area.columns == kTile && area.rows == kTile) {
+    return source_.colours->apply(values, planes_at(out, area.x, area.y), kernel_);
   }
-  source_.colours->apply(values, part(out.samples<std::uint8_t>(), area), kernel_, out.format);
+  Yuv420Tile whole;
+  source_.colours->apply(values, whole.planes(), kernel_);
+  remap::write_yuv420(whole.planes(), out, area);
 }
 
 }  // namespace orbwatch::remap

@@ -38,8 +38,10 @@ class SourceTiles {
     return is_defined_throughout(source_.grid->tile(tx, ty).kind);
   }
 
-  /// True if write_yuv420() is possible, which writes a tile into an I420 view without conversion.
-  bool writes_yuv420() const { return yuv420_tiles_.has_value(); }
+  /// True if write_yuv420() is possible, which writes a tile into an I420 picture of the view's
+  /// colour space without a detour by R'G'B': the source has 4:2:0 in BT.601 and keeps its
+  /// exposure, or is mapped to colours.
+  bool writes_yuv420() const { return writes_yuv420_; }
   void write_yuv420(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
 
   /// Writes a tile into `area` of `out`, which has the view's format, or Rgb for an I420 view; also
@@ -61,6 +63,10 @@ class SourceTiles {
   SampledPlanes luminance() const;
   template <class T>
   void write_mapped(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+  template <class T>
+  void write_mapped_yuv420(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+  template <class T>
+  ImageView<T> values_of(int tx, int ty, TilePicture<T, 1>& tile) const;
 
   const MergedSource& source_;
   const Kernel& kernel_;
@@ -69,8 +75,9 @@ class SourceTiles {
   bool is_wide_;    ///< 16 bit
   bool is_mapped_;  ///< one channel is mapped to colours
   bool is_dimmed_;  ///< colours are reduced to luma
+  bool writes_yuv420_;
   TileRemap tiles_;
-  std::optional<TileRemap> yuv420_tiles_;    ///< set if the view is I420 and the source fits
+  std::optional<TileRemap> yuv420_tiles_;    ///< set if a YUV source writes_yuv420()
   std::optional<TileRemap> measured_tiles_;  ///< set if the measured plane is to be written
 };
 

@@ -4,10 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
+#include <random>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "proc/remap/colour/chroma.h"
+#include "proc/remap/colour/luma.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -84,6 +90,59 @@ TEST(ColourMap, EveryValueTakesTheEntryOfItsPlaceInTheRange) {
             << values[i] << " in " << low << ".." << high;
         ASSERT_EQ(rgb[3 * i + 1], 255 - rgb[3 * i]);
         ASSERT_EQ(rgb[3 * i + 2], 7);
+      }
+    }
+  }
+}
+
+/// A picture of 4:2:0 by the colours of an Rgb one: luma, then the chroma of each two by two
+/// pixels' colours, rounded, and its mean.
+int expected_chroma(const ChromaWeights& weights, const std::uint8_t* rgb, int stride) {
+  int sum = 2;
+  for (const int at : {0, 3, stride, stride + 3}) {
+    sum += chroma_of(weights, 4 * rgb[at], 4 * rgb[at + 1], 4 * rgb[at + 2]);
+  }
+  return sum / 4;
+}
+
+/// Compares the I420 picture of values with their Rgb one.
+template <class T>
+void expect_colours_in_yuv420(const ColourMap& map, const ImageView<const T>& values,
+                              const Kernel& kernel) {
+  std::array<std::uint8_t, 3 * kTile * kTile> rgb{};
+  map.apply(values, {rgb.data(), values.width, values.height, 3, 3 * kTile}, kernel);
+  Yuv420Tile tile;
+  map.apply(values, tile.planes(), kernel);
+  const auto [luma_plane, u, v] = tile.planes();
+  for (int y = 0; y < values.height; ++y) {
+    for (int x = 0; x < values.width; ++x) {
+      const std::uint8_t* const colour = &rgb[3 * (kTile * y + x)];
+      ASSERT_EQ(luma_plane.row(y)[x], luma(colour)) << x << ", " << y;
+      if ((x | y) % 2 != 0) continue;
+      ASSERT_EQ(u.row(y / 2)[x / 2], expected_chroma(kWeightsOfU, colour, 3 * kTile))
+          << x << ", " << y;
+      ASSERT_EQ(v.row(y / 2)[x / 2], expected_chroma(kWeightsOfV, colour, 3 * kTile))
+          << x << ", " << y;
+    }
+  }
+}
+
+TEST(ColourMap, ShowsTheSameColoursInYuv420) {
+  std::mt19937 random(9);
+  std::array<std::uint8_t, kTile * kTile> bytes;
+  std::array<std::uint16_t, kTile * kTile> words;
+  for (auto& value : bytes) value = static_cast<std::uint8_t>(random());
+  for (auto& value : words) value = static_cast<std::uint16_t>(random());
+  for (const Kernel* kernel : kernels()) {
+    for (const auto& [width, height] : {std::pair{kTile, kTile}, {kTile, 6}, {10, kTile}, {2, 2}}) {
+      SCOPED_TRACE(std::string(kernel->name) + " " + std::to_string(width));
+      expect_colours_in_yuv420(ColourMap(ramp(), 0, 255),
+                               ImageView<const std::uint8_t>{bytes.data(), width, height, 1, kTile},
+                               *kernel);
+      for (const double low : {5000, -500}) {
+        expect_colours_in_yuv420(
+            ColourMap(ramp(), low, 60000),
+            ImageView<const std::uint16_t>{words.data(), width, height, 1, kTile}, *kernel);
       }
     }
   }

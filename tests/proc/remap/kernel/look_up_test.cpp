@@ -58,6 +58,37 @@ TEST_P(LookUp, WritesTheColoursOfEveryRunAndNothingElse) {
   }
 }
 
+TEST_P(LookUp, MeansTheChromaOfEachFourPixels) {
+  std::mt19937 random(12);
+  constexpr int kHalf = kTile / 2;
+  for (const std::ptrdiff_t apart : {0, 24}) {
+    const ColourTable table = noise(random, 1);
+    const std::ptrdiff_t stride = kRun + apart;
+    tests::GuardedMemory index_memory(kTile * 40), luma_memory(kTile * 20), u_memory(kTile * 20),
+        v_memory(kTile * 20);
+    const std::span indices = index_memory.last((kTile - 1) * stride + kRun);
+    std::ranges::generate(indices, [&] { return static_cast<std::uint8_t>(random()); });
+    const std::span y = luma_memory.last(kTile * kTile), u = u_memory.last(kHalf * kHalf),
+                    v = v_memory.last(kHalf * kHalf);
+    GetParam()->look_up_yuv420(table, {indices.data(), stride, kTile},
+                               {{y.data(), kTile}, {u.data(), kHalf}, {v.data(), kHalf}});
+    const auto entry = [&](std::size_t plane, int column, int row) -> int {
+      return table.planes[plane][indices[row * stride + column]];
+    };
+    for (int k = 0; k < kTile * kTile; ++k) ASSERT_EQ(y[k], entry(0, k % kTile, k / kTile)) << k;
+    for (int k = 0; k < kHalf * kHalf; ++k) {
+      const int column = 2 * (k % kHalf), row = 2 * (k / kHalf);
+      const auto mean = [&](std::size_t plane) {
+        return (entry(plane, column, row) + entry(plane, column + 1, row) +
+                entry(plane, column, row + 1) + entry(plane, column + 1, row + 1) + 2) /
+               4;
+      };
+      ASSERT_EQ(u[k], mean(1)) << k;
+      ASSERT_EQ(v[k], mean(2)) << k;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, LookUp, testing::ValuesIn(kernels().begin(), kernels().end()),
                          [](const auto& kernel) { return std::string(kernel.param->name); });
 

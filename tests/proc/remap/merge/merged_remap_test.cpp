@@ -15,153 +15,16 @@
 #include <vector>
 
 #include "proc/image/image_view.h"
-#include "proc/optics/rotation.h"
 #include "proc/remap/remap.h"
+#include "tests/proc/remap/merge/merged_scene.h"
 #include "tests/proc/remap/stored_picture.h"
 
 namespace orbwatch::remap {
 namespace {
 
-using optics::BallModel;
-using optics::BallProjection;
-using optics::ViewKind;
-using optics::ViewProjection;
 using tests::StoredPicture;
 
-ColourMap::Table grey_table() {
-  ColourMap::Table table{};
-  for (std::size_t i = 0; i < table.size(); ++i) table[i].fill(static_cast<std::uint8_t>(i));
-  return table;
-}
-
-/// Cameras around a ball, and everything that a merged view of them needs.
-class MergedRemap : public testing::Test {
- protected:
-  static constexpr int kSide = 300, kWidth = 500, kHeight = 250;
-
-  struct Camera {
-    Camera(const ViewProjection& view, double yaw, PixelFormat format, std::uint32_t seed)
-        : ball(BallProjection::make(BallModel::make(BallModel::Kind::Exact, 345).value(),
-                                    {{149.5, 149.5}, 140, 140, 0}, optics::rotation({yaw, 0, 0}))
-                   .value()),
-          grid(view, ball, kSide, kSide),
-          source(format, kSide, kSide) {
-      source.fill_with_noise(seed);
-    }
-    BallProjection ball;
-    CoordinateGrid grid;
-    StoredPicture source;
-    bool delivers = true;
-  };
-
-  void add(double yaw, PixelFormat format = PixelFormat::Rgb) {
-    cameras.push_back(std::make_unique<Camera>(view, yaw, format,
-                                               static_cast<std::uint32_t>(cameras.size() + 1)));
-  }
-
-  void compile() {
-    std::vector<BlendSource> sources;
-    for (const auto& c : cameras) sources.push_back({c->ball, kSide, kSide, 1, std::nullopt});
-    blend.emplace(view, sources);
-  }
-
-  void render(MergeRule rule = MergeRule::Mean, std::optional<TileRows> rows = std::nullopt) {
-    std::vector<MergedSource> sources;
-    for (const auto& c : cameras) {
-      MergedSource source{&c->grid, {}, &colours, {}, nullptr};
-      if (c->delivers) source.pictures = c->source.as_source();
-      if (c == cameras.front()) {
-        source.measured = measured;
-        if (unsharpened) source.measured_pictures = unsharpened->as_source();
-      }
-      sources.push_back(source);
-    }
-    const MergePlan plan{&*blend, rule, Interpolation::Bilinear, view_of(unseen, 1)};
-    merged_remap(sources, plan, target.value_or(picture_of(PixelFormat::Rgb, view_of(rgb, 3))),
-                 view_of(validity, 1), rows.value_or(TileRows{0, cameras.front()->grid.tiles_y()}));
-  }
-
-  /// The view of source `n` alone, by remap().
-  std::vector<std::uint8_t> alone(std::size_t n) {
-    std::vector<std::uint8_t> out(rgb.size());
-    const CoordinateGrid& grid = cameras[n]->grid;
-    const Picture& source = cameras[n]->source.source;
-    if (source.format != PixelFormat::Y16) {
-      remap(grid, cameras[n]->source.as_source(), Interpolation::Bilinear,
-            picture_of(PixelFormat::Rgb, view_of(out, 3)), {0, grid.tiles_y()});
-      return out;
-    }
-    std::vector<std::uint16_t> counts(out.size() / 3);
-    const ImageView<std::uint16_t> values{counts.data(), kWidth, kHeight, 1, kWidth};
-    remap(grid, cameras[n]->source.as_source(), Interpolation::Bilinear,
-          picture_of(PixelFormat::Y16, values), {0, grid.tiles_y()});
-    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
-      for (int tx = 0; tx < grid.tiles_x(); ++tx) {
-        const TileArea area = area_of(grid, tx, ty);
-        colours.apply(part(values, area), part(view_of(out, 3), area), scalar_kernel());
-      }
-    }
-    return out;
-  }
-  std::vector<std::uint8_t> weights(std::size_t n) {
-    std::vector<std::uint8_t> out(validity.size());
-    blend->weights(n, cameras[n]->grid, view_of(out, 1));
-    return out;
-  }
-  static ImageView<std::uint8_t> view_of(std::vector<std::uint8_t>& samples, int channels) {
-    return {samples.data(), kWidth, kHeight, channels, kWidth * channels};
-  }
-
-  /// Compares every pixel with the weighted mean of the sources alone; a share below half a percent
-  /// may be missing.
-  void expect_mean() {
-    std::vector<std::vector<std::uint8_t>> pictures, shares;
-    for (std::size_t n = 0; n < cameras.size(); ++n) {
-      pictures.push_back(alone(n));
-      shares.push_back(weights(n));
-      if (!cameras[n]->delivers) std::fill(shares[n].begin(), shares[n].end(), 0);
-    }
-    for (std::size_t i = 0; i < validity.size(); ++i) {
-      double total = 0;
-      for (const auto& share : shares) total += share[i];
-      ASSERT_EQ(validity[i], total > 0 ? static_cast<int>(Validity::Seen) : unseen[i]) << i;
-      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
-        double sum = 0;
-        for (std::size_t n = 0; n < shares.size(); ++n)
-          sum += double{1} * shares[n][i] * pictures[n][k];
-        ASSERT_NEAR(rgb[k], total > 0 ? sum / total : 0, 2.6) << i;
-      }
-    }
-  }
-
-  ViewProjection view =
-      ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, kWidth, kHeight}).value();
-  ColourMap colours{grey_table(), 0, 65535};
-  std::vector<std::unique_ptr<Camera>> cameras;
-  std::optional<BlendGrid> blend;
-  std::optional<MutablePicture> target;  ///< used in place of `rgb`
-  MutablePicture measured;               ///< the first camera's
-  /// The first camera's picture, if a sharpened one is shown.
-  std::unique_ptr<StoredPicture> unsharpened;
-  std::vector<std::uint8_t> rgb = std::vector<std::uint8_t>(3 * kWidth * kHeight, 77);
-  std::vector<std::uint8_t> validity = std::vector<std::uint8_t>(kWidth * kHeight, 3);
-  std::vector<std::uint8_t> unseen =
-      std::vector<std::uint8_t>(kWidth * kHeight, static_cast<std::uint8_t>(Validity::Blind));
-};
-
-/// The Y of a YUV picture in its stored form.
-std::unique_ptr<StoredPicture> luminance_plane(const StoredPicture& yuv) {
-  const PixelFormat format = yuv.picture.format;
-  const int width = yuv.picture.width, height = yuv.picture.height;
-  auto grey = std::make_unique<StoredPicture>(PixelFormat::Grey, width, height);
-  const int step = info(format).channels(), first = format == PixelFormat::Uyvy ? 1 : 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      grey->picture.samples<std::uint8_t>().at(x, y)[0] = yuv.sample(0, y, step * x + first);
-    }
-  }
-  return grey;
-}
+class MergedRemap : public MergedScene {};
 
 TEST_F(MergedRemap, OneSourceIsRemappedAsItIs) {
   add(20);
@@ -226,62 +89,6 @@ TEST_F(MergedRemap, GreyIsTheMeanOfTheLuminances) {
     }
     ASSERT_NEAR(grey.sample(0, i / kWidth, i % kWidth), total > 0 ? sum / total : 0, 2.6) << i;
   }
-}
-
-TEST_F(MergedRemap, Yuv420IsTheMergedColoursAsJpegHasThem) {
-  add(0);
-  add(120, PixelFormat::Nv12);
-  add(-120, PixelFormat::Y16);
-  compile();
-  render();
-  StoredPicture yuv(PixelFormat::I420, kWidth, kHeight), truth(PixelFormat::I420, kWidth, kHeight);
-  yuv.picture.colour_space = kJfif;
-  target = yuv.picture;
-  render();
-  for (int y = 0; y < kHeight; y += kTile) {
-    for (int x = 0; x < kWidth; x += kTile) {
-      std::array<std::uint8_t, 3 * kTile * kTile> tile{};
-      const TileArea area{x, y, std::min(kTile, kWidth - x), std::min(kTile, kHeight - y)};
-      for (int row = 0; row < area.rows; ++row) {
-        std::copy_n(&rgb[3 * (kWidth * (y + row) + x)], 3 * area.columns, &tile[3 * kTile * row]);
-      }
-      write_yuv420({tile.data(), kTile, kTile, 3, 3 * kTile}, truth.picture, area);
-    }
-  }
-  // The NV12 camera's noise is not clipped to colours where it is alone.
-  const CoordinateGrid& grid = cameras[1]->grid;
-  int same = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      if (is_defined_throughout(grid.tile(x / kTile, y / kTile).kind)) continue;
-      ++same;
-      ASSERT_EQ(yuv.sample(0, y, x), truth.sample(0, y, x)) << x << ", " << y;
-      ASSERT_EQ(yuv.sample(1, y / 2, x / 2), truth.sample(1, y / 2, x / 2)) << x << ", " << y;
-      ASSERT_EQ(yuv.sample(2, y / 2, x / 2), truth.sample(2, y / 2, x / 2)) << x << ", " << y;
-    }
-  }
-  EXPECT_GT(same, 1000);
-}
-
-TEST_F(MergedRemap, Yuv420OfASourceOfThatKindIsItsOwnPlanes) {
-  add(20, PixelFormat::Nv12);
-  compile();
-  cameras[0]->source.source.colour_space.range = ColourRange::Full;
-  StoredPicture yuv(PixelFormat::I420, kWidth, kHeight), own(PixelFormat::Grey, kWidth, kHeight);
-  yuv.picture.colour_space = kJfif;
-  target = yuv.picture;
-  render();
-  remap(cameras[0]->grid, luminance_plane(cameras[0]->source)->as_source(), Interpolation::Bilinear,
-        own.picture, {0, cameras[0]->grid.tiles_y()});
-  int compared = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      if (!is_defined_throughout(cameras[0]->grid.tile(x / kTile, y / kTile).kind)) continue;
-      ++compared;
-      ASSERT_EQ(yuv.sample(0, y, x), own.sample(0, y, x)) << x << ", " << y;
-    }
-  }
-  EXPECT_GT(compared, 1000);
 }
 
 TEST_F(MergedRemap, WithoutAPictureItMeasuresAndSeesTheSame) {
