@@ -11,9 +11,9 @@
 
 #include "proc/optics/rotation.h"
 #include "proc/optics/vec.h"
-#include "proc/remap/compiler/mip_level.h"
 #include "proc/remap/compiler/tolerance.h"
 #include "tests/proc/optics/random_camera.h"
+#include "tests/proc/remap/grid/grid_scene.h"
 #include "tests/support/share.h"
 
 namespace orbwatch::remap {
@@ -93,11 +93,6 @@ void expect_exact(const ViewSpec& spec, const BallProjection& ball, int source_w
   EXPECT_LE(found.jump, 1.5 * kTolerance);
   // Fixed point and double may put a pixel on different sides of the picture's very border.
   EXPECT_LE(found.wrongly_defined, 2);
-}
-
-BallProjection centred_ball(const BallModel& model, double size, double radius) {
-  return BallProjection::make(model, {{(size - 1) / 2, (size - 1) / 2}, radius, radius, 0}, {})
-      .value();
 }
 
 /// The nearest camera of the reference pictures, in its machine.
@@ -246,18 +241,11 @@ struct SmallPanorama {
   ViewProjection view =
       ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 1024, 512}).value();
   CoordinateGrid grid{view, ball, 1100, 1100};
-
-  template <class Visit>
-  void for_each_tile(const Visit& visit) const {
-    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
-      for (int tx = 0; tx < grid.tiles_x(); ++tx) visit(tx, ty, grid.tile(tx, ty));
-    }
-  }
 };
 
 TEST(CoordinateGrid, APanoramaHasPatchesWhereItIsSmaller) {
   int smaller = 0, patches = 0;
-  SmallPanorama().for_each_tile([&](int, int, const Tile& tile) {
+  for_each_tile(SmallPanorama().grid, [&](const Tile& tile, int, int) {
     smaller += tile.level > 0;
     patches += tile.level > 0 && is_patch(tile.kind);
   });
@@ -269,7 +257,7 @@ TEST(CoordinateGrid, APatchAtHalfIsExactToPixelsOfTwiceTheSize) {
   const SmallPanorama scene;
   int found = 0;
   double worst = 0;
-  scene.for_each_tile([&](int tx, int ty, const Tile& tile) {
+  for_each_tile(scene.grid, [&](const Tile& tile, int tx, int ty) {
     if (!tile.patch_at_half) return;
     ++found;
     ASSERT_EQ(tile.kind, TileKind::Curved);
@@ -293,9 +281,7 @@ TEST(CoordinateGrid, KeepsEachTileInTheLeastThatDescribesIt) {
   std::map<TileKind, int> kinds;
   const auto count = [&](const BallProjection& ball, const ViewSpec& spec, int size) {
     const CoordinateGrid grid(ViewProjection::make(spec).value(), ball, size, size);
-    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
-      for (int tx = 0; tx < grid.tiles_x(); ++tx) ++kinds[grid.tile(tx, ty).kind];
-    }
+    for_each_tile(grid, [&](const Tile& tile, int, int) { ++kinds[tile.kind]; });
   };
   count(machine(Scene::Room::Box, true), {ViewKind::Perspective, {-115, -40, 0}, 90, {}, 1280, 720},
         1500);
@@ -308,14 +294,6 @@ TEST(CoordinateGrid, KeepsEachTileInTheLeastThatDescribesIt) {
   for (const TileKind kind : {TileKind::Patch, TileKind::Curved, TileKind::Fine,
                               TileKind::CurvedFine, TileKind::Pixels}) {
     EXPECT_GT(kinds[kind], 0) << static_cast<int>(kind);
-  }
-}
-
-/// Calls `look(tile, tx, ty)` for every tile.
-template <class Look>
-void for_each_tile(const CoordinateGrid& grid, const Look& look) {
-  for (int ty = 0; ty < grid.tiles_y(); ++ty) {
-    for (int tx = 0; tx < grid.tiles_x(); ++tx) look(grid.tile(tx, ty), tx, ty);
   }
 }
 
@@ -400,79 +378,6 @@ TEST(CoordinateGrid, InteriorTilesKeepTheirDistanceToTheBorder) {
   }
   EXPECT_GT(count[true], 500);
   EXPECT_GT(count[false], 10);
-}
-
-/// Source pixels between neighbouring pixels in a tile's middle, in the direction with more;
-/// nullopt where the exact map ends.
-std::optional<double> step_in_the_middle(const CoordinateGrid& grid, const ViewProjection& view,
-                                         const BallProjection& ball, int tx, int ty) {
-  const double x = (tx + 0.5) * kTile, y = (ty + 0.5) * kTile;
-  const auto difference = [&](double dx, double dy) -> std::optional<double> {
-    const auto at = [&](double sign) { return view.direction(x + sign * dx, y + sign * dy); };
-    const auto a = at(-0.5), b = at(0.5);
-    const auto from = a ? ball.pixel(*a) : std::nullopt, to = b ? ball.pixel(*b) : std::nullopt;
-    if (!from || !to) return std::nullopt;
-    return std::hypot(to->u - from->u, to->v - from->v);
-  };
-  const auto along = difference(1, 0), down = difference(0, 1);
-  if (!along || !down || grid.tile(tx, ty).kind == TileKind::Outside) return std::nullopt;
-  return std::max(*along, *down);
-}
-
-/// Counts tiles by level. Each must have the level required by the exact map's step in its middle;
-/// that may be the neighbouring one where the step is within 3 % of the limit.
-std::map<int, int> expect_levels(const ViewSpec& spec, const BallProjection& ball) {
-  const auto view = ViewProjection::make(spec).value();
-  const CoordinateGrid grid(view, ball, 3000, 3000);
-  std::map<int, int> count;
-  const auto level = [](double step) {
-    return std::clamp(static_cast<int>(std::ceil(0.5 * std::log2(step * step / kLargestStep2))), 0,
-                      kMaxLevel);
-  };
-  for_each_tile(grid, [&](const Tile& tile, int tx, int ty) {
-    ++count[tile.level];
-    const auto step = step_in_the_middle(grid, view, ball, tx, ty);
-    const bool smooth = tile.kind >= TileKind::Patch && tile.kind <= TileKind::CurvedFine;
-    if (!step || !smooth) return;
-    EXPECT_GE(tile.level, level(*step * 0.97)) << tx << ' ' << ty << ": " << *step;
-    EXPECT_LE(tile.level, level(*step * 1.03)) << tx << ' ' << ty << ": " << *step;
-  });
-  EXPECT_EQ(grid.levels(), count.rbegin()->first);
-  return count;
-}
-
-TEST(CoordinateGrid, AsksForALevelWhereTheViewIsSmallerThanTheSource) {
-  const auto ball =
-      centred_ball(BallModel::make(BallModel::Kind::Exact, 348.5).value(), 3000, 1490);
-  // Straight ahead the picture has about 711 px per radian.
-  const std::array<std::pair<int, int>, 5> shrunk{{{711, 0}, {302, 1}, {151, 2}, {76, 3}, {38, 3}}};
-  for (const auto& [width, level] : shrunk) {
-    const double h_fov = 2 * optics::degrees(std::atan(0.5));
-    const auto count = expect_levels(
-        {ViewKind::Perspective, {0, 0, 0}, h_fov, {}, width, std::min(width, 300)}, ball);
-    EXPECT_EQ(count.size(), 1U) << width;
-    EXPECT_TRUE(count.contains(level)) << width;
-  }
-}
-
-TEST(CoordinateGrid, TheLevelFollowsTheLargerStep) {
-  const auto ball =
-      centred_ball(BallModel::make(BallModel::Kind::Exact, 348.5).value(), 3000, 1490);
-  // The same width as above, a fifth and a tenth of the height.
-  const double h_fov = 2 * optics::degrees(std::atan(0.5)), v_fov = h_fov;
-  for (const auto& [height, level] : std::array<std::pair<int, int>, 2>{{{151, 2}, {76, 3}}}) {
-    for (const double roll : {0.0, 90.0, 30.0}) {
-      const auto count =
-          expect_levels({ViewKind::Perspective, {0, 0, roll}, h_fov, v_fov, 711, height}, ball);
-      EXPECT_TRUE(count.contains(level)) << height << ' ' << roll;
-      EXPECT_EQ(count.size(), 1U) << height << ' ' << roll;
-    }
-  }
-  // Levels range from 1 in the middle of the picture to those at its curved border.
-  for (const double yaw : {60.0, 120.0, 150.0}) {
-    expect_levels({ViewKind::Perspective, {yaw, 10, 20}, 100, {}, 320, 200}, ball);
-  }
-  expect_levels({ViewKind::Equirectangular, {}, {}, {}, 256, 512}, ball);
 }
 
 TEST(CoordinateGrid, FollowsACutAndTurnedBall) {
