@@ -260,14 +260,16 @@ def stage_table(measured):
     instructions."""
     rates = [1e9 * CLOCKS[processor] * measured.instructions_per_cycle(processor)
              for processor in CLOCKS]
-    stages = instruction_gates.stages(measured.ours)
-    stages.append(("until_the_status", instruction_gates.answer(measured.ours)))
-    stages.append(("frame_set", measured.ours.get(("reference_rgb", "frame_set"))))
-    return table(["stage", "million instructions", *(f"modelled ms, {processor}"
-                                                     for processor in CLOCKS)],
-                 [[stage.replace("_", " "), text(count),
+    def stages(readers):
+        return [*instruction_gates.stages(measured.ours, readers),
+                ("until_the_status", instruction_gates.answer(measured.ours, readers)),
+                ("frame_set", measured.ours.get((f"reference_{readers}", "frame_set")))]
+    as_jpeg = dict(stages("jpeg"))
+    return table(["stage", "million instructions, read as RGB", "as JPEG",
+                  *(f"modelled ms as RGB, {processor}" for processor in CLOCKS)],
+                 [[stage.replace("_", " "), text(count), text(as_jpeg.get(stage)),
                    *(text(count * 1e6 / rate * 1e3) for rate in rates)]
-                  for stage, count in stages if count is not None])
+                  for stage, count in stages("rgb") if count is not None])
 
 
 def clocks(measured):
