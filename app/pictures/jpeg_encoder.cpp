@@ -28,7 +28,9 @@ bool is_jfif(const Picture& picture) {
 }  // namespace
 
 int JpegEncoder::compress(const Picture& picture, int quality, unsigned long& size) {
-  // The fast transform's rounding is coarser than the finest quantisation.
+  // The fast transform's rounding is coarser than the finest quantisation. It would save 1 to 6 %
+  // of the time there, also in streams, and cost 0.1 dB at quality 91 and 0.6 dB at 95 (photographs
+  // of 1024x512 on x86-64); up to 85 the two are within 0.05 dB.
   constexpr int kFinest = 90;
   const int flags = TJFLAG_NOREALLOC | (quality > kFinest ? TJFLAG_ACCURATEDCT : 0);
   unsigned char* out = jpeg_.data();

@@ -123,6 +123,10 @@ Result<> JpegReader::start(Call call) {
   return open(before).and_then([&] { return completes(call) ? Result<>() : failed(kDamaged); });
 }
 
+// Both starts keep libjpeg's accurate transform, also for cameras' streams, which are measured: the
+// fast one saves about 5 % of the time and costs 0.3 dB at quality 85, 0.6 dB at 93 and 2 dB and
+// more at 95 (photographs of 1024x512 on x86-64).
+
 Result<> JpegReader::start_rows(J_COLOR_SPACE colours, unsigned reduction) {
   return start([this, colours, reduction] {
     picture_.out_color_space = colours;
