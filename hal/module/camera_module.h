@@ -19,7 +19,8 @@ namespace orbwatch::hal {
 inline constexpr int kCameraModuleInterface = 2;
 
 /// Description that a module exports. The first two members never move: they are read before it is
-/// known whether the rest is understood. All texts and functions live as long as the program.
+/// known whether the rest is understood. All texts and functions live as long as the program,
+/// unless it refuses the module.
 struct CameraModule {
   int interface_version = kCameraModuleInterface;
   /// Identifies the headers that the module was compiled with: ORBWATCH_MODULE_BUILD_ID.

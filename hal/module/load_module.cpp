@@ -38,6 +38,15 @@ Result<> check(const CameraModule& module, const fs::path& file, std::string_vie
   return {};
 }
 
+/// Descriptor of a loaded module. The error owns its text: nothing of the library is referenced.
+Result<const CameraModule*> module_in(void* library, const fs::path& file,
+                                      std::string_view back_end) {
+  const auto entry = reinterpret_cast<CameraModuleEntry>(::dlsym(library, kCameraModuleEntry));
+  const CameraModule* const module = entry != nullptr ? entry() : nullptr;
+  if (module == nullptr) return fail(file.string() + ": is no camera module of orbwatch");
+  return check(*module, file, back_end).map([module] { return module; });
+}
+
 }  // namespace
 
 fs::path module_folder() {
@@ -50,17 +59,15 @@ fs::path module_file(std::string_view back_end) {
 }
 
 Result<const CameraModule*> load_module(const fs::path& file, std::string_view back_end) {
-  // Never closed: its threads and objects may outlive every camera.
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     return fail("the module does not load: " + std::string(::dlerror()) + "; install " +
                 package_of(back_end) + " of this system, or rebuild it on this computer by " +
                 "platform/build-deb --module " + std::string(back_end));
   }
-  const auto entry = reinterpret_cast<CameraModuleEntry>(::dlsym(library, kCameraModuleEntry));
-  const CameraModule* const module = entry != nullptr ? entry() : nullptr;
-  if (module == nullptr) return fail(file.string() + ": is no camera module of orbwatch");
-  if (auto fits = check(*module, file, back_end); !fits) return tl::unexpected(fits.error());
+  auto module = module_in(library, file, back_end);
+  // One that fits is never closed: its threads and objects may outlive every camera.
+  if (!module) ::dlclose(library);
   return module;
 }
 

@@ -18,8 +18,8 @@ std::filesystem::path module_folder();
 std::filesystem::path module_file(std::string_view back_end);
 
 /// Loads a module from a file and checks that it fits this program and belongs to the back-end. The
-/// error names file, reason and remedy. It stays loaded; loading it again costs little.
-/// Thread-safe.
+/// error names file, reason and remedy. A module that fits stays loaded, and loading it again costs
+/// little; one that does not is unloaded. Thread-safe.
 Result<const CameraModule*> load_module(const std::filesystem::path& file,
                                         std::string_view back_end);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/module/load_module.h"
 
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +18,12 @@ using testing::HasSubstr;
 
 std::filesystem::path test_module(const std::string& name) {
   return std::filesystem::path(ORBWATCH_TEST_MODULES) / (name + ".so");
+}
+
+bool is_loaded(const std::string& name) {
+  void* const library = ::dlopen(test_module(name).c_str(), RTLD_LAZY | RTLD_NOLOAD);
+  if (library != nullptr) ::dlclose(library);
+  return library != nullptr;
 }
 
 std::string refusal(const std::string& name, std::string_view back_end = "libcamera") {
@@ -67,6 +74,16 @@ TEST(LoadModule, RefusesWhatDoesNotFitAndSaysWhatWould) {
   EXPECT_THAT(refusal("unresolved_module"),
               AllOf(HasSubstr("orbwatch_function_of_a_library_that_is_missing"),
                     HasSubstr("platform/build-deb --module libcamera")));
+}
+
+TEST(LoadModule, UnloadsWhatItRefusesAndKeepsWhatFits) {
+  for (const char* name : {"older_module", "foreign_module", "no_module"}) {
+    EXPECT_NE(refusal(name), "was loaded");
+    EXPECT_FALSE(is_loaded(name)) << name;
+  }
+  ASSERT_EQ(refusal("fitting_module"), "was loaded");
+  EXPECT_NE(refusal("fitting_module", "genicam"), "was loaded");
+  EXPECT_TRUE(is_loaded("fitting_module")) << "refused as another back-end's only";
 }
 
 }  // namespace
