@@ -5,58 +5,38 @@
 #include <zlib.h>
 
 #include <bit>
-#include <csetjmp>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 #include <new>
 #include <string>
 
+#include "hal/png/png_calls.h"
+
 namespace orbwatch::app {
 namespace {
 
-/// Wraps libpng's writer of one picture, with its errors as values.
-class PngWriter {
+/// Wraps libpng's writer of one picture.
+class PngWriter : public hal::PngCalls {
  public:
   PngWriter() = default;
   ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 
-  /// Runs a call of libpng; false when it failed. libpng's only way out of a failed call is
-  /// longjmp, which skips destructors: `call`, and all that it calls, must have none to run.
-  template <class Call>
-  bool completes(Call call) {
-    if (setjmp(way_out_) != 0) return false;
-    call();
-    return true;
-  }
-
   void begin(const Picture& picture, bool has_alpha);
   void add_row(const std::uint8_t* row) { png_write_row(png_, row); }
   void end() { png_write_end(png_, info_); }
 
-  const char* message() const { return message_; }
   std::vector<std::uint8_t> take() { return std::move(bytes_); }
 
  private:
-  [[noreturn]] static void on_error(png_structp png, png_const_charp text);
-  static void on_warning(png_structp, png_const_charp) {}
   static void write(png_structp png, png_bytep data, std::size_t size);
   static void flush(png_structp) {}
 
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  std::jmp_buf way_out_{};  ///< return point of the running call of libpng
-  char message_[256]{};
   std::vector<std::uint8_t> bytes_;
 };
-
-void PngWriter::on_error(png_structp png, png_const_charp text) {
-  auto& writer = *static_cast<PngWriter*>(png_get_error_ptr(png));
-  std::snprintf(writer.message_, sizeof(writer.message_), "%s", text);
-  std::longjmp(writer.way_out_, 1);
-}
 
 /// An exception must not pass through libpng.
 void PngWriter::write(png_structp png, png_bytep data, std::size_t size) {
@@ -71,12 +51,9 @@ void PngWriter::write(png_structp png, png_bytep data, std::size_t size) {
 }
 
 void PngWriter::begin(const Picture& picture, bool has_alpha) {
-  png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+  png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, calls(), on_error, on_warning);
   if (png_ != nullptr) info_ = png_create_info_struct(png_);
-  if (info_ == nullptr) {
-    std::snprintf(message_, sizeof(message_), "out of memory");
-    std::longjmp(way_out_, 1);
-  }
+  if (info_ == nullptr) leave("out of memory");
   png_set_write_fn(png_, this, write, flush);
   png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   // Neighbouring pixels differ little: with this filter runs compress nearly as well as matches.

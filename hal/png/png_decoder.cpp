@@ -4,32 +4,23 @@
 #include <png.h>
 
 #include <bit>
-#include <csetjmp>
-#include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "hal/png/png_calls.h"
+
 namespace orbwatch::hal {
 
-/// Wraps libpng's reader of one picture, with its errors as values.
-class PngReader {
+/// Wraps libpng's reader of one picture.
+class PngReader : public PngCalls {
  public:
   PngReader() = default;
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  /// Runs a call of libpng; false when it failed. libpng's only way out of a failed call is
-  /// longjmp, which skips destructors: `call`, and all that it calls, must have none to run.
-  template <class Call>
-  bool completes(Call call) {
-    if (setjmp(way_out_) != 0) return false;
-    call();
-    return true;
-  }
-
-  auto failed(const char* what) const { return fail(std::string(what) + message_); }
+  auto failed(const char* what) const { return fail(std::string(what) + message()); }
 
   bool create();
   void read_header(std::span<const std::byte> png);
@@ -39,23 +30,13 @@ class PngReader {
   std::span<const std::byte> exif() const;
 
  private:
-  [[noreturn]] static void on_error(png_structp png, png_const_charp text);
-  static void on_warning(png_structp, png_const_charp) {}
   static void read(png_structp png, png_bytep out, std::size_t size);
   void convert_rows();
 
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  std::jmp_buf way_out_{};  ///< return point of the running call of libpng
-  char message_[256]{};
   std::span<const std::byte> rest_;  ///< data that libpng has not read yet
 };
-
-void PngReader::on_error(png_structp png, png_const_charp text) {
-  auto& reader = *static_cast<PngReader*>(png_get_error_ptr(png));
-  std::snprintf(reader.message_, sizeof(reader.message_), "%s", text);
-  std::longjmp(reader.way_out_, 1);
-}
 
 void PngReader::read(png_structp png, png_bytep out, std::size_t size) {
   auto& reader = *static_cast<PngReader*>(png_get_io_ptr(png));
@@ -66,7 +47,7 @@ void PngReader::read(png_structp png, png_bytep out, std::size_t size) {
 
 bool PngReader::create() {
   return completes([this] {
-           png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+           png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, calls(), on_error, on_warning);
            if (png_ != nullptr) info_ = png_create_info_struct(png_);
          }) &&
          info_ != nullptr;
