@@ -177,7 +177,7 @@ void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
   for (Sink* sink : sinks_) sink->accept_frames(set);
   apply_commands(set);
-  stages_.end(Stage::Publication);  // includes the pictures of the previous set
+  stages_.end(Stage::Publication);  // includes heartbeats since the previous set
 
   measure(set);
   begin_status(set);

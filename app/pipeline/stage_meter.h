@@ -24,7 +24,7 @@ class StageMeter {
   /// Ends a frame set. `capture` and `sinks`: processor time of those threads since their start.
   void end_set(std::chrono::nanoseconds capture, std::chrono::nanoseconds sinks);
 
-  /// Fills in the stages of `status` and busy_ms from the newest frame set.
+  /// Fills in the stages of `status` and busy_ms from the frame set that ended last.
   void report(Status& status) const;
   /// Fills in the percentiles since the last call, which was `elapsed` ago.
   void roll(hal::Clock::duration elapsed, Status& status);

@@ -148,7 +148,7 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(double, skew_ms, kLatency,                                                                 \
         "Largest skew between the exposure starts of a frame set, over the last full second")      \
   FIELD(double, load, kShare,                                                                      \
-        "Share of its deadline that the slowest frame set of the last second took")                \
+        "Share of its deadline that the slowest frame set completed in the last second took")      \
   FIELD(std::uint32_t, process_inputs_known, kCount,                                               \
         "Bit n: process input n is read; otherwise its line has a fault, and the input counts as " \
         "inactive")                                                                                \
@@ -157,8 +157,8 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(std::uint32_t, interface_faults, kCount,                                                   \
         "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshot, 4 web")     \
   FIELD(double, busy_ms, kProcessorTime,                                                           \
-        "Processor time of the pipeline's own thread for the newest frame set; a lower bound of "  \
-        "its duration")                                                                            \
+        "Processor time of the pipeline's own thread for the newest completed frame set; a lower " \
+        "bound of its duration")                                                                   \
   FIELD(bool, realtime, kFlag,                                                                     \
         "The frame path has real-time priorities: other programs do not delay it")                 \
   FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")              \
@@ -349,11 +349,11 @@ struct RegionStatus {
   signals::Signals signals;
 };
 
-#define ORBWATCH_STAGE_FIGURES(FIELD)                                       \
-  FIELD(double, cpu_ms, kProcessorTime,                                     \
-        "Processor time for the newest frame set, of all threads together") \
-  FIELD(double, cpu_p50_ms, kProcessorTime,                                 \
-        "Processor time per frame set, median of the last full second")     \
+#define ORBWATCH_STAGE_FIGURES(FIELD)                                                 \
+  FIELD(double, cpu_ms, kProcessorTime,                                               \
+        "Processor time for the newest completed frame set, of all threads together") \
+  FIELD(double, cpu_p50_ms, kProcessorTime,                                           \
+        "Processor time per frame set, median of the last full second")               \
   FIELD(double, cpu_p99_ms, kProcessorTime, "Processor time per frame set, 99 of 100 took less")
 
 /// One stage.
