@@ -34,12 +34,6 @@ PictureUses sharpenings_of(const std::vector<ViewPlan>& views) {
   return uses;
 }
 
-PictureUses uses_of(std::span<const ViewChannel> views) {
-  PictureUses uses;
-  for (const ViewChannel& view : views) view.add_use(uses);
-  return uses;
-}
-
 /// All views by index.
 std::vector<ViewPlan> all_views(const PipelinePlan& plan) {
   std::vector<ViewPlan> views = plan.views;
@@ -215,7 +209,8 @@ void Pipeline::measure(const hal::FrameSet& set) {
 void Pipeline::show(const hal::FrameSet& set) {
   const bool is_due = budget_.is_display_due(set.id);
   ask_readers(measured(), set.stamp);
-  PictureUses uses = uses_of(measured());
+  PictureUses uses;
+  for (const ViewChannel& view : measured()) view.add_use(uses);
   if (is_due) {
     ask_readers(displays_, set.stamp);
     for (const ViewChannel& view : displays_) view.add_use(uses);

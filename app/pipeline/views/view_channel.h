@@ -35,9 +35,10 @@ class ViewChannel {
   void set_colours(ChosenColours colours) { colours_ = colours; }
   /// Adds what measure() samples.
   void add_measured_use(PictureUses& uses) const { renderer_->add_measured_use(uses); }
-  /// Adds what render() and draw() sample.
+  /// Adds what render() and draw() sample: nothing if no sink gets what was measured.
   void add_use(PictureUses& uses) const {
-    if (format_) renderer_->add_use(uses);
+    const bool is_unshared = rendered_ && !is_shared_;
+    if (format_ && !is_unshared) renderer_->add_use(uses);
   }
 
   /// Renders a display view of a set, valid until take(); null: every buffer is held. Does not

@@ -137,6 +137,31 @@ TEST_F(ViewChannelTest, AMeasuredViewHasItsPictureAfterItsPlane) {
   EXPECT_TRUE(channel.take());
 }
 
+TEST_F(ViewChannelTest, NothingIsSampledForAPictureThatNoSinkGets) {
+  plan.measured = 0;
+  plan.interpolation = remap::Interpolation::Area;
+  plan.projection =
+      optics::ViewProjection::make({optics::ViewKind::Equirectangular, {}, {}, {}, 16, 8}).value();
+  buffers.emplace(buffers_for(plan, {2, 0}));
+  ViewChannel channel(plan);
+  channel.set_reading(PixelFormat::Rgb, false);
+  const auto levels_to_draw = [&] {
+    PictureUses measured, drawn;
+    channel.add_measured_use(measured);
+    pyramids.build(set, measured, workers);
+    channel.measure(set, pyramids, *buffers, workers);
+    channel.add_use(drawn);
+    channel.take();
+    return drawn[0].mip_levels;
+  };
+  EXPECT_GT(levels_to_draw(), 0);
+  std::vector<ViewPtr> held;
+  while (ViewPtr view = buffers->acquire(plan)) held.push_back(std::move(view));
+  EXPECT_EQ(levels_to_draw(), 0);
+  held.pop_back();
+  EXPECT_GT(levels_to_draw(), 0);
+}
+
 /// Recipes with views of one size follow each other.
 TEST_F(ViewChannelTest, AChannelKeepsNothingOfWhatWasTaken) {
   plan.measured = 0;
