@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <tuple>
+
 #include "app/pictures/colour_maps.h"
 #include "hal/frame/frame_pool.h"
 #include "proc/image/image_view.h"
@@ -78,6 +81,11 @@ std::string measured_bytes(const View& view) {
   const auto pixels = static_cast<std::size_t>(view.validity.width) * view.validity.height;
   return view.luminance.empty() ? bytes_of(view.radiometric.data, 2 * pixels)
                                 : bytes_of(view.luminance.data, pixels);
+}
+
+std::string validity_bytes(const View& view) {
+  return bytes_of(view.validity.data,
+                  static_cast<std::size_t>(view.validity.width) * view.validity.height);
 }
 
 int red(const View& view, int lon) {
@@ -215,34 +223,81 @@ TEST_F(ViewRendererTest, WithoutAPictureNothingIsSharpened) {
   EXPECT_TRUE(without[0].sharpened().empty());
 }
 
-TEST_F(ViewRendererTest, APictureDrawnAfterItsPlaneIsTheSame) {
-  for (const std::size_t measured : {0U, 1U}) {
-    for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::I420, PixelFormat::Grey}) {
-      ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 30), source(1, PixelFormat::Y16, 90)});
-      plan.sources[0].sharpness = 0.8;
-      plan.measured = measured;
-      set.frames = {noise(PixelFormat::Rgb), noise(PixelFormat::Y16)};
-      RenderedView rendered(plan);
-      rendered.set_format(format);
-      const View& at_once = rendered.render(set, workers);
-      const ViewRenderer renderer(plan);
-      FramePyramids pyramids(source_formats(plan), use_of(renderer));
-      PictureUses uses;
-      renderer.add_measured_use(uses);
-      pyramids.build(set, uses, workers);
-      View view = make_view(plan);
-      renderer.measure(set, pyramids, view, workers);
-      EXPECT_EQ(measured_bytes(view), measured_bytes(at_once)) << measured;
-      set_format(view, format);
-      pyramids.extend(use_of(renderer), workers);
-      renderer.draw(pyramids, view, workers);
-      EXPECT_EQ(picture_bytes(view), picture_bytes(at_once)) << measured;
-      EXPECT_EQ(measured_bytes(view), measured_bytes(at_once)) << measured;
-      EXPECT_EQ(view.frame_set, at_once.frame_set);
-      EXPECT_EQ(view.colours[1].has_value(), at_once.colours[1].has_value());
-    }
+/// Merge of two colour cameras and a thermal one, the measured one of them, and one without a
+/// frame.
+using Merged = std::tuple<Combine, std::size_t, std::optional<std::size_t>>;
+
+class DrawnAfterItsPlane : public ViewRendererTest, public testing::WithParamInterface<Merged> {
+ protected:
+  DrawnAfterItsPlane() {
+    plan.sources[0].sharpness = 0.8;
+    plan.measured = std::get<1>(GetParam());
+    set.id = 7;
+    set.frames = {noise(PixelFormat::Rgb), noise(PixelFormat::Rgb), noise(PixelFormat::Y16)};
+    if (absent) set.frames[*absent] = nullptr;
+  }
+
+  void render(View& view) {
+    const ViewRenderer renderer(plan);
+    FramePyramids pyramids(source_formats(plan), use_of(renderer));
+    pyramids.set_match(1, match);
+    pyramids.build(set, use_of(renderer), workers);
+    renderer.render(set, pyramids, view, workers);
+  }
+  void measure_and_draw(View& view, const View& at_once) {
+    const ViewRenderer renderer(plan);
+    FramePyramids pyramids(source_formats(plan), use_of(renderer));
+    pyramids.set_match(1, match);
+    PictureUses uses;
+    renderer.add_measured_use(uses);
+    pyramids.build(set, uses, workers);
+    renderer.measure(set, pyramids, view, workers);
+    EXPECT_EQ(measured_bytes(view), measured_bytes(at_once)) << "before the picture";
+    EXPECT_EQ(validity_bytes(view), validity_bytes(at_once)) << "before the picture";
+    pyramids.extend(use_of(renderer), workers);
+    renderer.draw(pyramids, view, workers);
+  }
+
+  const std::optional<std::size_t> absent = std::get<2>(GetParam());
+  ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 30), source(1, PixelFormat::Rgb, 150),
+                            source(2, PixelFormat::Y16, 90)},
+                           std::get<0>(GetParam()));
+  const remap::PhotometricTable brighter{{.channels = {{{1.4, 0}, {1.2, 0.01}, {0.8, 0}}}},
+                                         PixelFormat::Rgb};
+  const remap::PhotometricTable* match = &brighter;
+};
+
+TEST_P(DrawnAfterItsPlane, AViewIsAsIfItWereRenderedAtOnce) {
+  for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::I420, PixelFormat::Grey}) {
+    View at_once = make_view(plan), view = make_view(plan);
+    set_format(at_once, format);
+    set_format(view, format);
+    render(at_once);
+    measure_and_draw(view, at_once);
+    EXPECT_EQ(picture_bytes(view), picture_bytes(at_once)) << info(format).name;
+    EXPECT_EQ(measured_bytes(view), measured_bytes(at_once)) << info(format).name;
+    EXPECT_EQ(validity_bytes(view), validity_bytes(at_once)) << info(format).name;
+    EXPECT_EQ(view.frame_set, at_once.frame_set);
+    EXPECT_EQ(view.colours[2].has_value(), at_once.colours[2].has_value());
   }
 }
+
+/// Otherwise equal pictures would prove nothing about the match.
+TEST_P(DrawnAfterItsPlane, ThePictureShowsTheMatchOfACameraThatIsThere) {
+  View matched = make_view(plan), as_it_is = make_view(plan);
+  set_format(matched, PixelFormat::Rgb);
+  set_format(as_it_is, PixelFormat::Rgb);
+  render(matched);
+  match = nullptr;
+  render(as_it_is);
+  EXPECT_EQ(picture_bytes(matched) == picture_bytes(as_it_is), absent == 1U);
+  EXPECT_EQ(measured_bytes(matched), measured_bytes(as_it_is));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Merges, DrawnAfterItsPlane,
+    testing::Combine(testing::Values(Combine::Mix, Combine::Sharpest, Combine::Switch),
+                     testing::Values(0, 1, 2), testing::Values(std::nullopt, 0, 1, 2)));
 
 TEST_F(ViewRendererTest, MeasuresTheLuminanceOfColour) {
   ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 0)});
