@@ -457,19 +457,29 @@ TEST_F(MeasuredPipeline, WithoutARecipeNothingIsMeasured) {
   EXPECT_EQ(pipeline->select_recipe(1), CommandResult::NotPossible);
 }
 
-TEST_F(MeasuredPipeline, StopsWhileRecipesAreSelected) {
-  for (int round = 0; round < 10; ++round) {
-    frames = 0;
-    start({plan_with_exposure(1), plan_with_exposure(2)});
-    for (int n = 0; n < round; ++n) {
-      ASSERT_EQ(pipeline->select_recipe(1 + n % 2), CommandResult::Done);
-    }
-    next_frame();
-    ASSERT_EQ(pipeline->select_recipe(2), CommandResult::Done);
-    pipeline->stop();
-    pipeline.reset();
+/// The parameter: number of recipes that are selected one right after another.
+class SelectedRecipes : public MeasuredPipeline, public testing::WithParamInterface<int> {};
+
+TEST_P(SelectedRecipes, TheLastOneIsMeasuredAndAStopDuringTheNextEnds) {
+  start({plan_with_exposure(1), plan_with_exposure(2)});
+  std::uint16_t last = 1;
+  for (int n = 0; n < GetParam(); ++n) {
+    last = static_cast<std::uint16_t>(2 - n % 2);
+    ASSERT_EQ(pipeline->select_recipe(last), CommandResult::Done);
   }
+  Status status;
+  const auto end = Clock::now() + seconds(30);
+  do {
+    status = next_frame();
+  } while (status.regions[0].quality == Quality::NotMeasured && Clock::now() < end);
+  EXPECT_EQ(status.recipe, last);
+  EXPECT_NEAR(status.regions[0].signals.hot_spot_peak_temperature, celsius(last), 0.1);
+  ASSERT_EQ(pipeline->select_recipe(3 - last), CommandResult::Done);
+  pipeline->stop();
+  EXPECT_EQ(sink.wait_for([](const Status&) { return true; }).frame_set, frames);
 }
+
+INSTANTIATE_TEST_SUITE_P(Selections, SelectedRecipes, testing::Range(0, 10));
 
 }  // namespace
 }  // namespace orbwatch::app::pipeline
