@@ -20,6 +20,7 @@
 #include "tests/app/pipeline/hand_camera.h"
 #include "tests/app/pipeline/measurement/measured_recipe.h"
 #include "tests/app/pipeline/views/rendered_view.h"
+#include "tests/app/pipeline/views/thermal_view.h"
 
 namespace {
 
@@ -79,12 +80,14 @@ TEST(FramePath, DoesNotAllocate) {
   measured.alarms.push_back(limits);
   const auto recipe = compiled(std::move(measured));
   ViewBuffers buffers = buffers_for(recipe->plan().views[0], {1, 0});
-  PictureUses uses;
+  PictureUses measured_uses, uses;
   for (ViewChannel& view : recipe->views()) {
     view.set_reading(PixelFormat::Rgb, false);
+    view.add_measured_use(measured_uses);
     view.add_use(uses);
   }
   ASSERT_EQ(uses[1].sharpened().size(), 1U);
+  ASSERT_EQ(measured_uses[1].sharpened().size(), 0U) << "left for the picture";
   for (PictureUse& use : uses) use.mip_levels = remap::kMaxLevel;
   FramePyramids pyramids(source_formats(plan()), uses);
   WorkerPool workers(1);
@@ -102,10 +105,11 @@ TEST(FramePath, DoesNotAllocate) {
     }
     const auto set = sync.next(hal::Clock::now() + std::chrono::seconds(5));
     ASSERT_TRUE(set);
-    pyramids.build(*set, uses, workers);
+    pyramids.build(*set, measured_uses, workers);
     recipe->render(*set, pyramids, buffers, workers);
     recipe->measure();
     recipe->watch(set->stamp, true, {});
+    pyramids.extend(uses, workers);
     recipe->views()[0].draw(pyramids, workers);
     ViewPtr view = recipe->views()[0].take();
     ASSERT_TRUE(view);
@@ -133,6 +137,7 @@ class CountingSink : public Sink {
  public:
   struct Reading {
     std::uint64_t frame_set = 0;
+    std::uint16_t recipe = 0;
     std::uint64_t pointing = 0;
     std::size_t allocations = 0;
     std::size_t releases = 0;
@@ -145,24 +150,36 @@ class CountingSink : public Sink {
     const std::lock_guard lock(mutex_);
     reading_.pointing = view->pointing;
   }
+  void accept_event(const AlarmNotice&) override { ++notices_; }
   void accept(const Status& status) override {
     const std::lock_guard lock(mutex_);
     reading_.frame_set = status.frame_set;
+    reading_.recipe = status.recipe;
     reading_.allocations = allocations;
     reading_.releases = releases;
     changed_.notify_all();
   }
   Reading wait_for_set(std::uint64_t number) {
+    return wait_for([number](const Reading& reading) { return reading.frame_set >= number; });
+  }
+  Reading wait_for_recipe(std::uint16_t number) {
+    return wait_for([number](const Reading& reading) { return reading.recipe == number; });
+  }
+  std::size_t notices() const { return notices_; }
+
+ private:
+  template <class Condition>
+  Reading wait_for(const Condition& condition) {
     std::unique_lock lock(mutex_);
-    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30),
-                                  [&] { return reading_.frame_set >= number; }));
+    EXPECT_TRUE(
+        changed_.wait_for(lock, std::chrono::seconds(30), [&] { return condition(reading_); }));
     return reading_;
   }
 
- private:
   std::mutex mutex_;
   std::condition_variable changed_;
   Reading reading_;
+  std::atomic<std::size_t> notices_{0};
 };
 
 TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointedAndColoured) {
@@ -200,6 +217,41 @@ TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointedAndColoured) {
     } while (after.pointing < *number && std::chrono::steady_clock::now() < end);
     ASSERT_EQ(after.pointing, *number);
   }
+  EXPECT_EQ(after.allocations, before.allocations);
+  EXPECT_EQ(after.releases, before.releases);
+}
+
+TEST(FramePath, NeitherAllocatesNorFreesWhileRecipesAreSelected) {
+  PipelinePlan measured;
+  auto hand = std::make_unique<HandCamera>("camera", PixelFormat::Y16);
+  HandCamera& camera = *hand;
+  measured.formats.push_back(camera.configure({}).value());
+  measured.cameras.push_back(std::move(hand));
+  measured.deadline = std::chrono::seconds(20);
+  measured.view_count = 2;
+  for (const std::uint16_t number : {1, 2}) {
+    RecipePlan recipe = recipe_plan(thermal_view(number - 1U, "measured"), 30000, 0.04, number);
+    signals::AlarmLimits limits;
+    limits.high_alarm = 0.5;  // for hot_spot_present: raised until another recipe is selected
+    recipe.alarms.push_back(limits);
+    measured.recipes.push_back(compiled(std::move(recipe)));
+  }
+  CountingSink sink;
+  Pipeline pipeline(std::move(measured));
+  ASSERT_TRUE(pipeline.start({&sink}));
+
+  std::uint64_t frames = 0;
+  const auto next_frame_of = [&](std::uint16_t recipe) {
+    EXPECT_EQ(pipeline.select_recipe(recipe), CommandResult::Done);
+    sink.wait_for_recipe(recipe);
+    camera.expose(40000);
+    return sink.wait_for_set(++frames);
+  };
+  const CountingSink::Reading before = next_frame_of(2);
+  CountingSink::Reading after;
+  for (int i = 0; i < 30; ++i) after = next_frame_of(static_cast<std::uint16_t>(1 + i % 2));
+  EXPECT_EQ(sink.notices(), 2 * 30U + 1)
+      << "each recipe's alarm was raised, and suppressed by the next";
   EXPECT_EQ(after.allocations, before.allocations);
   EXPECT_EQ(after.releases, before.releases);
 }
