@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "app/pictures/picture_conversion.h"
 #include "app/pictures/png_encoder.h"
 #include "hal/atomic_file.h"
-#include "hal/replay/picture_decoder.h"
+#include "hal/jpeg/jpeg_decoder.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -86,9 +87,18 @@ Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path)
 }
 
 Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path) {
-  const auto decoded = hal::decode_picture(std::as_bytes(jpeg), "image");
-  if (!decoded) return tl::unexpected(decoded.error());
-  return save(decoded->picture, path);
+  const auto file = std::as_bytes(jpeg);
+  hal::JpegDecoder decoder;
+  const auto size = decoder.read_size(file);
+  if (!size) return fail("image: " + size.error().message);
+  const PixelFormat format = size->is_grey ? PixelFormat::Grey : PixelFormat::Rgb;
+  std::vector<std::byte> pixels(packed_bytes(format, size->width, size->height));
+  const auto picture = MutablePicture::contiguous(format, size->width, size->height, pixels.data(),
+                                                  row_bytes(format, size->width));
+  if (const auto done = decoder.decode_packed(file, picture.samples<std::uint8_t>()); !done) {
+    return fail("image: " + done.error().message);
+  }
+  return save(picture, path);
 }
 
 }  // namespace orbwatch::app::cli

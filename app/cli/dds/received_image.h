@@ -35,7 +35,9 @@ Result<> check_image_size(std::uint32_t width, std::uint32_t height);
 /// or the new one. Errors: folder missing or not writable, disk full.
 Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path);
 
-/// Writes the picture of a JPEG file as PNG. Further error: data that is damaged.
+/// Writes a JPEG picture, whose sides passed check_image_size(), as PNG. Its pixels stay where they
+/// are, as in viewers of its topic: an orientation in EXIF is ignored. Further errors: another kind
+/// of picture, damaged.
 Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path);
 
 }  // namespace orbwatch::app::cli

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <span>
 #include <vector>
 
+#include "tests/hal/replay/exif_pictures.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::cli {
@@ -18,6 +20,10 @@ ReceivedImage two_by_two(const dds::ImageEncoding& encoding, const Bytes& bytes)
   return {encoding, 2, 2, bytes.size() / 2, bytes.data(), false};
 }
 
+std::span<const std::uint8_t> bytes_of(const std::vector<std::byte>& file) {
+  return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
+}
+
 class ImageFileTest : public testing::Test {
  protected:
   cv::Mat saved(const ReceivedImage& image) {
@@ -25,6 +31,13 @@ class ImageFileTest : public testing::Test {
     const auto result = save_png(image, path);
     EXPECT_TRUE(result) << result.error().message;
     EXPECT_EQ(folder_.files(), 1) << "the temporary file must be gone";
+    return cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+  }
+
+  cv::Mat saved_jpeg(const std::vector<std::byte>& jpeg) {
+    const auto path = folder_.path() / "image.png";
+    const auto result = save_jpeg_as_png(bytes_of(jpeg), path);
+    EXPECT_TRUE(result) << result.error().message;
     return cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   }
 
@@ -58,6 +71,32 @@ TEST_F(ImageFileTest, GreyKeepsItsDepth) {
   wide = saved(image);
   EXPECT_EQ(wide.at<std::uint16_t>(0, 0), 0x3412);
   EXPECT_EQ(wide.at<std::uint16_t>(1, 1), 0x0180);
+}
+
+TEST_F(ImageFileTest, AJpegPictureIsSavedAsItIs) {
+  const cv::Mat colour = saved_jpeg(tests::jpeg_of({16, 16, CV_8UC3, cv::Scalar(20, 90, 200)}));
+  ASSERT_EQ(colour.type(), CV_8UC3);
+  EXPECT_LE(cv::norm(colour.at<cv::Vec3b>(8, 8), cv::Vec3b(20, 90, 200), cv::NORM_INF), 3);
+  // Orientation 6 turns by 90 degrees: the pixels of a view stay where its geometry has them.
+  const cv::Mat grey = saved_jpeg(tests::jpeg_with(tests::exif(6)));
+  ASSERT_EQ(grey.type(), CV_8UC1);
+  ASSERT_EQ(grey.size(), cv::Size(32, 16));
+  EXPECT_GT(grey.at<std::uint8_t>(8, 8), 250);
+  EXPECT_LT(grey.at<std::uint8_t>(8, 24), 5);
+}
+
+TEST_F(ImageFileTest, OnlyAWholeJpegPictureIsSaved) {
+  Bytes png;
+  ASSERT_TRUE(cv::imencode(".png", cv::Mat(8, 8, CV_8UC3, cv::Scalar(1, 2, 3)), png));
+  const auto path = folder_.path() / "image.png";
+  const auto refused = save_jpeg_as_png(png, path);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(refused.error().message.starts_with("image: not a JPEG picture"))
+      << refused.error().message;
+  auto half = tests::jpeg_of({16, 16, CV_8UC3, cv::Scalar(20, 90, 200)});
+  half.resize(half.size() / 2);
+  EXPECT_FALSE(save_jpeg_as_png(bytes_of(half), path));
+  EXPECT_EQ(folder_.files(), 0);
 }
 
 TEST_F(ImageFileTest, MissingFolderIsReported) {
