@@ -50,6 +50,8 @@ class CameraGroup {
 
   /// Waits for the next set; nullopt at `until` or after close().
   std::optional<hal::FrameSet> next(hal::TimePoint until) { return sync_.next(until); }
+  /// True if the next set has arrived.
+  bool has_next() const { return sync_.has_set(); }
 
   std::size_t size() const { return members_.size(); }
   /// Number of cameras with a fault.

@@ -166,7 +166,7 @@ void Pipeline::end_exchange() {
 
 /// Processes a frame set. What is measured comes first, and goes out before the pictures that
 /// people look at are made; of these, measured views come with every set, display views slow down
-/// under overload.
+/// under overload and give way to the next set.
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
   for (Sink* sink : sinks_) sink->accept_frames(set);
@@ -223,11 +223,24 @@ void Pipeline::show(const hal::FrameSet& set) {
     stages_.end(Stage::Views, workers_.take_spent());
     publish(view);
   }
-  for (ViewChannel& view : displays_) {
-    if (is_due) view.render(set, pyramids_, *buffers_, workers_);
+  show_displays(set, is_due);
+}
+
+/// Renders the display views, beginning with the one whose turn it is, until the next set arrives:
+/// measurements do not wait for pictures. At least one is rendered, so that every view gets a turn;
+/// those left out are the first in the next set.
+void Pipeline::show_displays(const hal::FrameSet& set, bool are_due) {
+  std::size_t rendered = 0;
+  for (std::size_t n = 0; n < displays_.size(); ++n) {
+    ViewChannel& view = displays_[(first_display_ + n) % displays_.size()];
+    if (are_due && rendered == n && (n == 0 || !cameras_.has_next())) {
+      view.render(set, pyramids_, *buffers_, workers_);
+      ++rendered;
+    }
     stages_.end(Stage::Views, workers_.take_spent());
     publish(view);
   }
+  if (rendered > 0) first_display_ = (first_display_ + rendered) % displays_.size();
 }
 
 /// Views of the recipe that is measured.
@@ -266,7 +279,7 @@ void Pipeline::idle() {
 }
 
 /// Forwards the view that was rendered last; it counts as skipped if there is none, because it was
-/// not due or the sinks hold every buffer of its size.
+/// not due, gave way to the next set, or the sinks hold every buffer of its size.
 void Pipeline::publish(ViewChannel& channel) {
   const std::size_t index = channel.plan().index;
   const ViewPtr view = channel.take();

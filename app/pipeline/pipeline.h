@@ -153,6 +153,7 @@ class Pipeline {
   void apply_commands(const hal::FrameSet& set);
   void measure(const hal::FrameSet& set);
   void show(const hal::FrameSet& set);
+  void show_displays(const hal::FrameSet& set, bool are_due);
   std::span<ViewChannel> measured();
   void idle();
   void match_exposures(const hal::FrameSet& set);
@@ -180,6 +181,7 @@ class Pipeline {
   FramePyramids pyramids_;
   std::unique_ptr<ExposureMatch> exposures_;
   std::vector<ViewChannel> displays_;
+  std::size_t first_display_ = 0;           ///< display view whose turn is next
   std::optional<ViewBuffers> buffers_;      ///< set by start()
   std::optional<Measurement> measurement_;  ///< set if there are recipes
   PanTiltZoom pan_tilt_zoom_;

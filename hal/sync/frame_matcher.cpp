@@ -118,6 +118,11 @@ std::optional<FrameSet> FrameMatcher::take(TimePoint now, ReleasedFrames& releas
   return assemble(pacer, now, released);
 }
 
+bool FrameMatcher::has_set(TimePoint now) const {
+  const std::size_t pacer = pacing(now);
+  return pacer != cameras_ && choose(pacer, now);
+}
+
 /// A trigger makes one set at most: a new pacing camera does not repeat the sets of the previous
 /// one.
 void FrameMatcher::discard_late(Inbox& pacer, ReleasedFrames& released) {

@@ -89,6 +89,9 @@ class FrameMatcher {
   /// Takes the set that is ready at `now`, or nullopt.
   std::optional<FrameSet> take(TimePoint now, ReleasedFrames& released);
 
+  /// True if a set is ready at `now`. A repeated trigger, which take() discards, counts as one.
+  bool has_set(TimePoint now) const;
+
   /// True if the camera, which has no fault, is late at `now`.
   bool is_late(std::size_t camera, TimePoint now) const { return now > due(inboxes_[camera]); }
 

@@ -43,6 +43,11 @@ std::optional<FrameSet> FrameSync::next(TimePoint until) {
   return std::nullopt;
 }
 
+bool FrameSync::has_set() const {
+  const std::lock_guard lock(mutex_);
+  return matcher_.has_set(Clock::now());
+}
+
 void FrameSync::close() {
   {
     const std::lock_guard lock(mutex_);

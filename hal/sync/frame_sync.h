@@ -24,6 +24,9 @@ class FrameSync {
   /// Waits for the next set; nullopt at `until`, or at once after close().
   std::optional<FrameSet> next(TimePoint until);
 
+  /// True if next() would return a set without waiting: see FrameMatcher::has_set().
+  bool has_set() const;
+
   /// Ends next() for good.
   void close();
 

@@ -328,7 +328,7 @@ struct CameraStatus : CameraWatchStatus {
 #define ORBWATCH_VIEW_FIGURES(FIELD)                                                           \
   FIELD(std::uint64_t, published, kCount, "Views published since start")                       \
   FIELD(std::uint64_t, skipped, kCount,                                                        \
-        "Frame sets without this view: display slowed down, or no buffer")                     \
+        "Frame sets without this view: display slowed down or gave way, or no buffer")         \
   FIELD(std::uint64_t, superseded, kCount,                                                     \
         "Pointing requests that a newer one replaced before the next frame set")               \
   FIELD(double, frames_per_second, kRate, "Frame rate over the last full second")              \

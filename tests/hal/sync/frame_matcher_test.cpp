@@ -35,6 +35,7 @@ class Matcher {
   void clear(std::size_t camera) { matcher_.clear(camera, released_); }
   void advance_to(int ms) { now_ = kStart + milliseconds(ms); }
   std::optional<FrameSet> take() { return matcher_.take(now_, released_); }
+  bool has_set() const { return matcher_.has_set(now_); }
   TimePoint wake() const { return matcher_.wake(now_); }
   bool is_late(std::size_t camera) const { return matcher_.is_late(camera, now_); }
   const FrameCounts& counts(std::size_t camera) const { return matcher_.counts(camera); }
@@ -97,6 +98,18 @@ TEST(FrameMatcher, WaitsForAFrameThatIsDueWithinTheWindow) {
   EXPECT_FALSE(matcher.take());
   matcher.put(1, frame(2, 9));  // due at 12
   EXPECT_EQ(number(matcher.take().value(), 1), 2);
+}
+
+TEST(FrameMatcher, HasASetOnceItIsReadyUntilItIsTaken) {
+  Matcher matcher(2);
+  EXPECT_FALSE(matcher.has_set());
+  matcher.put(0, frame(0, 0));
+  EXPECT_FALSE(matcher.has_set()) << "its partner may come";
+  matcher.put(1, frame(0, 1));
+  EXPECT_TRUE(matcher.has_set());
+  EXPECT_TRUE(matcher.has_set()) << "it is still there";
+  ASSERT_TRUE(matcher.take());
+  EXPECT_FALSE(matcher.has_set());
 }
 
 TEST(FrameMatcher, KeepsNoFrameThatItDoesNotHold) {

@@ -29,10 +29,12 @@ TEST(FrameSync, WaitsForAPartnerThatComesLater) {
   FrameSync sync(2, {.window = milliseconds(10), .max_wait = 2 * kGuard});
   sync.put(0, live_frame(1, 20));
   EXPECT_FALSE(sync.next(Clock::now()));
+  EXPECT_FALSE(sync.has_set());
   std::thread later([&] { sync.put(1, live_frame(1, 21)); });
   const auto set = sync.next(soon());
   later.join();
   ASSERT_TRUE(set);
+  EXPECT_FALSE(sync.has_set());
   EXPECT_EQ(set->frames[1]->metadata.sequence, 1U);
   EXPECT_TRUE(set->matched);
 }
@@ -52,6 +54,8 @@ TEST(FrameSync, AFaultEndsTheWaitForACamera) {
   std::thread later([&] { sync.clear(1); });
   EXPECT_TRUE(sync.next(soon()));
   later.join();
+  sync.put(0, live_frame(1, 30));
+  EXPECT_TRUE(sync.has_set());
 }
 
 TEST(FrameSync, ClosingEndsAWait) {
