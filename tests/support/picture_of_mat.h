@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "proc/image/picture.h"
 
@@ -16,6 +17,13 @@ inline Picture picture_of_mat(const cv::Mat& pixels) {
   return Picture::contiguous(format, pixels.cols, pixels.rows,
                              reinterpret_cast<const std::byte*>(pixels.data),
                              static_cast<std::ptrdiff_t>(pixels.step));
+}
+
+/// Each of a sequence, in its order.
+inline std::vector<Picture> pictures_of_mats(const std::vector<cv::Mat>& pixels) {
+  std::vector<Picture> pictures;
+  for (const cv::Mat& one : pixels) pictures.push_back(picture_of_mat(one));
+  return pictures;
 }
 
 }  // namespace orbwatch::tests

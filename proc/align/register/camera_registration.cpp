@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proc/align/register/camera_registration.h"
 
+#include <optional>
+#include <string>
+
 #include "proc/align/register/features/feature_registration.h"
 #include "proc/align/register/gradients/gradient_registration.h"
 #include "proc/align/register/light/bright_spots.h"
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 namespace {
+
+const double kOneRotation = optics::radians(1.5);  // angle between refined rotations that are one
 
 /// Radiometric cameras deliver 16 bits of temperature.
 bool is_thermal(const Picture& picture) { return picture.format == PixelFormat::Y16; }
@@ -25,27 +31,51 @@ class Attempt {
                  RegistrationMethod::Features);
   }
   Result<CameraRegistration> by_gradients() const {
-    progress_("matching edges");
-    return named(register_by_gradients({pictures_.reference.front(), ball_}, sought_),
-                 RegistrationMethod::Gradients);
+    return by_gradients(sought_.camera.registration);
   }
-  Result<CameraRegistration> by_light() {
+  /// Of the rotations that explain the light, the one on which edges agree, too.
+  Result<CameraRegistration> by_light() const {
     progress_("matching the process' light");
     const auto rough = register_by_light(pictures_, ball_, sought_);
     if (!rough) return tl::unexpected(rough.error());
-    sought_.camera.registration = rough->rotation;
-    return by_gradients();
+    std::optional<CameraRegistration> found;
+    std::string refusal;
+    for (const Registration& start : *rough) {
+      const auto fine = by_gradients(start.rotation);
+      if (!fine) {
+        if (refusal.empty()) refusal = fine.error().message;
+      } else if (!found) {
+        found = *fine;
+      } else if (angle_between(fine->registration.rotation, found->registration.rotation) > kOneRotation) {
+        return fail(
+            "two different rotations explain the process' light and the edges nearly as well");
+      }
+    }
+    if (!found) return fail(refusal);
+    return *found;
   }
-  Result<CameraRegistration> automatic() {
+  Result<CameraRegistration> automatic() const {
     if (is_thermal(pictures_.reference.front()) == is_thermal(pictures_.camera.front())) {
       return by_features();
     }
     const bool is_sequence =
         pictures_.reference.size() >= kLeastPictures && pictures_.camera.size() >= kLeastPictures;
-    return is_sequence ? by_light() : by_gradients();
+    if (!is_sequence) return by_gradients();
+    const auto by_sparks = by_light();
+    if (by_sparks) return by_sparks;
+    return by_gradients().map_error([&](const auto& error) {
+      return Error{by_sparks.error().message + "; from the rig's registration: " + error.message};
+    });
   }
 
  private:
+  Result<CameraRegistration> by_gradients(const optics::Mat3& start) const {
+    progress_("matching edges");
+    SoughtCamera near = sought_;
+    near.camera.registration = start;
+    return named(register_by_gradients({pictures_.reference.front(), ball_}, near),
+                 RegistrationMethod::Gradients);
+  }
   static Result<CameraRegistration> named(const Result<Registration>& found,
                                           RegistrationMethod method) {
     return found.map([method](const Registration& r) { return CameraRegistration{r, method}; });
@@ -66,7 +96,7 @@ Result<CameraRegistration> register_camera(const SimultaneousPictures& pictures,
   if (pictures.reference.empty() || pictures.camera.empty()) {
     return fail("a registration needs a picture of each camera");
   }
-  Attempt attempt(pictures, reference, sought, progress);
+  const Attempt attempt(pictures, reference, sought, progress);
   switch (method) {
     case RegistrationMethod::Features:
       return attempt.by_features();

@@ -12,7 +12,8 @@
 namespace orbwatch::align {
 
 /// Method of registration. Auto: features where both cameras have one modality, else light where
-/// there is a sequence, refined by gradients, else gradients from the rig's registration as start.
+/// there is a sequence, refined by gradients; gradients from the rig's registration as start where
+/// there is none, or its light does not tell.
 enum class RegistrationMethod { Auto, Features, Gradients, Light };
 
 inline constexpr std::array kRegistrationMethods{

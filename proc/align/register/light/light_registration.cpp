@@ -28,13 +28,16 @@ constexpr int kTrials = 4000;
 constexpr std::array kTolerances{0.05, 0.05, 0.03, 0.02};  // shares of the ball's radius
 constexpr int kStepsPerTolerance = 150;
 constexpr int kLeastInliers = 12;
-constexpr double kRivalry = 0.85;
+constexpr std::size_t kMostRotations = 4;
+constexpr double kRivalry = 0.6;  // share of the best score; a rival's edges are compared, too
 const double kDifferent = radians(20);
+const double kSamePlace = radians(6);
 
 /// Directions that the light of a spot may come from, nearest first.
 struct Source {
   std::array<Vec3, kDistances> directions;
   std::array<double, kDistances> closeness;
+  double weight = 1;
 };
 
 /// The light at one moment.
@@ -71,17 +74,43 @@ struct Agreement {
   std::vector<Vec3> directions;
 };
 
+/// Lets light that stays in one place, such as a melt pool, count once however many moments show
+/// it: every turn about it would explain all of its sightings.
+void weigh(std::vector<Moment>& moments) {
+  const auto is_near = [](const Source& a, const Source& b) {
+    return dot(a.directions.back(), b.directions.back()) > std::cos(kSamePlace);
+  };
+  const auto shows = [&](const Moment& moment, const Source& source) {
+    return std::ranges::any_of(moment.sources,
+                               [&](const Source& other) { return is_near(other, source); });
+  };
+  for (Moment& moment : moments) {
+    for (Source& source : moment.sources) {
+      source.weight =
+          1.0 / static_cast<double>(std::ranges::count_if(
+                    moments, [&](const Moment& other) { return shows(other, source); }));
+    }
+  }
+}
+
+/// A trial rotation and its score.
+struct Candidate {
+  Mat3 rotation;
+  double score = 0;
+};
+
 class LightSearch {
  public:
   LightSearch(std::vector<Moment> moments, const SoughtCamera& sought)
       : moments_(std::move(moments)), sought_(sought) {
+    weigh(moments_);
     for (std::size_t m = 0; m < moments_.size(); ++m) {
       if (!moments_[m].sources.empty() && !moments_[m].spots.empty()) lit_.push_back(m);
     }
     radius_ = optics::mean_radius(*sought.camera.outline);
   }
 
-  Result<Registration> run() {
+  Result<std::vector<Registration>> run() {
     if (lit_.size() < kLeastPictures) {
       return fail("only " + std::to_string(lit_.size()) + " moments show light to both cameras, " +
                   std::to_string(kLeastPictures) +
@@ -89,16 +118,22 @@ class LightSearch {
     }
     for (int trial = 0; trial < kTrials; ++trial) {
       const auto rotation = hypothesis();
-      if (rotation) note(*rotation, agreement(*rotation, kTolerances.front()).score);
+      if (rotation) note({*rotation, agreement(*rotation, kTolerances.front()).score});
     }
-    const Agreement first = agreement(best_, kTolerances.front());
-    if (rival_ > kRivalry * first.score) {
-      return fail(
-          "two different rotations explain the light nearly as well: record a sequence in "
-          "which sparks fly far or the melt pool moves");
+    std::vector<Registration> found;
+    int most = 0;
+    for (const Candidate& candidate : candidates_) {
+      if (candidate.score < kRivalry * candidates_.front().score) break;
+      const Registration one = registration(polished(candidate.rotation));
+      most = std::max(most, one.inliers);
+      if (one.inliers >= kLeastInliers) found.push_back(one);
     }
-    polish();
-    return result();
+    if (found.empty()) {
+      return fail("only " + std::to_string(most) + " spots of light agree, " +
+                  std::to_string(kLeastInliers) +
+                  " are needed: record a longer sequence of the running process");
+    }
+    return found;
   }
 
  private:
@@ -140,7 +175,7 @@ class LightSearch {
     if (!ball) return sum;
     for (const std::size_t m : lit_) {
       for (const auto& [source, error] : mutual(*ball, moments_[m])) {
-        sum.score += std::exp(-error * error / (tolerance * tolerance));
+        sum.score += source->weight * std::exp(-error * error / (tolerance * tolerance));
         if (error > 2 * tolerance) continue;
         ++sum.inliers;
         sum.squares += error * error;
@@ -181,46 +216,47 @@ class LightSearch {
     return pairs;
   }
 
-  void note(const Mat3& rotation, double score) {
-    const bool is_other = angle_between(rotation, best_) > kDifferent;
-    if (score > best_score_) {
-      if (is_other) rival_ = best_score_;
-      best_ = rotation;
-      best_score_ = score;
-    } else if (is_other) {
-      rival_ = std::max(rival_, score);
-    }
+  /// Keeps the best candidates, the best first, of which no two are nearly the same.
+  void note(const Candidate& trial) {
+    const auto is_near = [&](const Candidate& other) {
+      return angle_between(trial.rotation, other.rotation) < kDifferent;
+    };
+    const bool is_known = std::ranges::any_of(candidates_, [&](const Candidate& other) {
+      return is_near(other) && other.score >= trial.score;
+    });
+    if (is_known) return;
+    std::erase_if(candidates_, is_near);
+    const auto at =
+        std::ranges::lower_bound(candidates_, trial.score, std::greater{}, &Candidate::score);
+    candidates_.insert(at, trial);
+    if (candidates_.size() > kMostRotations) candidates_.pop_back();
   }
 
-  /// Improves the rotation by random turns, smaller and smaller.
-  void polish() {
+  /// The rotation improved by random turns, smaller and smaller.
+  Mat3 polished(Mat3 rotation) {
     std::normal_distribution<double> any;
     for (const double tolerance : kTolerances) {
-      double score = agreement(best_, tolerance).score;
+      double score = agreement(rotation, tolerance).score;
       for (int step = 0; step < kStepsPerTolerance; ++step) {
         const Vec3 turn = Vec3{any(random_), any(random_), any(random_)} * tolerance;
-        const Mat3 trial = rotation_about(turn) * best_;
+        const Mat3 trial = rotation_about(turn) * rotation;
         const double better = agreement(trial, tolerance).score;
         if (better <= score) continue;
         score = better;
-        best_ = trial;
+        rotation = trial;
       }
     }
+    return rotation;
   }
 
-  Result<Registration> result() const {
-    const Agreement found = agreement(best_, kTolerances.back());
+  Registration registration(const Mat3& rotation) const {
+    const Agreement found = agreement(rotation, kTolerances.back());
     Registration r;
-    r.rotation = best_;
+    r.rotation = rotation;
     r.outline = *sought_.camera.outline;
     r.inliers = found.inliers;
-    if (found.inliers < kLeastInliers) {
-      return fail("only " + std::to_string(found.inliers) + " spots of light agree, " +
-                  std::to_string(kLeastInliers) +
-                  " are needed: record a longer sequence of the running process");
-    }
     // A ball in the middle of its picture turns directions by two degrees per degree on it.
-    const double sigma = 2 * std::sqrt(found.squares / found.inliers);
+    const double sigma = 2 * std::sqrt(found.squares / std::max(found.inliers, 1));
     r.residual = optics::degrees(sigma);
     Mat3 information{{}, {}, {}};
     for (const Vec3& d : found.directions) information = information + Mat3{} + outer(d, d) * -1;
@@ -233,16 +269,14 @@ class LightSearch {
   std::vector<std::size_t> lit_;  ///< moments in which both see light
   double radius_ = 0;
   std::mt19937_64 random_{1};
-  Mat3 best_;
-  double best_score_ = 0;
-  double rival_ = 0;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace
 
-Result<Registration> register_by_light(const SimultaneousPictures& pictures,
-                                       const BallProjection& reference,
-                                       const SoughtCamera& sought) {
+Result<std::vector<Registration>> register_by_light(const SimultaneousPictures& pictures,
+                                                    const BallProjection& reference,
+                                                    const SoughtCamera& sought) {
   const auto seen = bright_spots(pictures.reference);
   if (!seen) return tl::unexpected(seen.error());
   const auto others = bright_spots(pictures.camera);
@@ -260,10 +294,12 @@ Result<Registration> register_by_light(const SimultaneousPictures& pictures,
   }
   auto found = LightSearch(std::move(moments), sought).run();
   if (!found) return found;
-  const auto ball = turned(sought, found->rotation, found->outline);
-  if (!ball) return tl::unexpected(ball.error());
   const Picture &a = pictures.reference.front(), &b = pictures.camera.front();
-  found->overlap = overlap(reference, a.width, a.height, *ball, b.width, b.height);
+  for (Registration& one : *found) {
+    const auto ball = turned(sought, one.rotation, one.outline);
+    if (!ball) return tl::unexpected(ball.error());
+    one.overlap = overlap(reference, a.width, a.height, *ball, b.width, b.height);
+  }
   return found;
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/files/rig/rig_file.h"
 #include "proc/align/detect/ball_detector.h"
+#include "proc/align/register/camera_registration.h"
 #include "proc/align/register/features/feature_registration.h"
 #include "proc/align/register/gradients/gradient_registration.h"
 #include "proc/align/register/light/light_registration.h"
@@ -246,11 +249,47 @@ TEST(RegistrationGate, ProcessLightNeedsNoStart) {
   const optics::BallProjection ball = optics::ball_projection(pair.sought.rig, known).value();
   const auto rough =
       align::register_by_light({colour.pictures, thermal.pictures}, ball, pair.sought);
-  expect_within(rough, pair.truth, 4, "near C on A, from light");
-  pair.sought.camera.registration = rough->rotation;
+  ASSERT_TRUE(rough) << rough.error().message;
+  expect_within(rough->front(), pair.truth, 4, "near C on A, from light");
+  pair.sought.camera.registration = rough->front().rotation;
   pair.sought.picture = thermal.pictures.front();
   const auto fine = align::register_by_gradients({colour.pictures.front(), ball}, pair.sought);
   expect_within(fine, pair.truth, 0.6, "near C on A, from light, refined");
+}
+
+/// The first `count` pictures in a folder.
+std::vector<cv::Mat> first_pictures(const std::filesystem::path& folder, std::size_t count) {
+  std::vector<std::filesystem::path> files(std::filesystem::directory_iterator{folder}, {});
+  std::ranges::sort(files);
+  std::vector<cv::Mat> pixels;
+  for (const auto& file : files) {
+    if (pixels.size() == count) break;
+    pixels.push_back(cv::imread(file.string(), cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR));
+  }
+  return pixels;
+}
+
+TEST(RegistrationGate, ProcessLightIsNoWorseByMorePictures) {
+  const auto folder = reference_data() / "cases" / "light_refused";
+  ORBWATCH_REQUIRE_FILE(folder);
+  const auto rig = app::files::load_rig(folder / "rig.toml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  const optics::RigCamera &known = rig->cameras.at(0), &camera = rig->cameras.at(1);
+  const optics::BallProjection ball = optics::ball_projection(*rig, known).value();
+  const Mat3 truth{{0.9638975166260523, 0.24765890269068236, -0.09780922942226265},
+                   {-0.2657562901118074, 0.9176558332131217, -0.29543419916445035},
+                   {0.016588300339051523, 0.3107617088509753, 0.9503430899437757}};
+  for (const std::size_t count : {6, 8, 10, 12}) {
+    const auto colour = first_pictures(folder / "A", count);
+    const auto thermal = first_pictures(folder / "C", count);
+    const align::SoughtCamera sought{picture_of_mat(thermal.front()), *rig, camera, 0};
+    const auto found =
+        align::register_camera({pictures_of_mats(colour), pictures_of_mats(thermal)}, ball, sought,
+                               align::RegistrationMethod::Auto, [](const std::string&) {});
+    ASSERT_TRUE(found) << count << " pictures: " << found.error().message;
+    EXPECT_LE(degrees(align::angle_between(found->registration.rotation, truth)), 0.4)
+        << count << " pictures";
+  }
 }
 
 }  // namespace

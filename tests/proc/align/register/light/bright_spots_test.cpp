@@ -26,15 +26,9 @@ std::vector<cv::Mat> process(int type, double light) {
   return all;
 }
 
-std::vector<Picture> pictures(const std::vector<cv::Mat>& pixels) {
-  std::vector<Picture> all;
-  for (const cv::Mat& one : pixels) all.push_back(tests::picture_of_mat(one));
-  return all;
-}
-
 TEST(BrightSpots, AreWhatMovesNotWhatIsAlwaysBright) {
   for (const auto& pixels : {process(CV_8U, 250), process(CV_16U, 40'000)}) {
-    const auto found = bright_spots(pictures(pixels));
+    const auto found = bright_spots(tests::pictures_of_mats(pixels));
     ASSERT_TRUE(found) << found.error().message;
     ASSERT_EQ(found->size(), pixels.size());
     for (std::size_t n = 0; n < found->size(); ++n) {
@@ -47,10 +41,10 @@ TEST(BrightSpots, AreWhatMovesNotWhatIsAlwaysBright) {
 
 TEST(BrightSpots, RefuseShortAndMixedSequences) {
   auto pixels = process(CV_8U, 250);
-  const auto all = pictures(pixels);
+  const auto all = tests::pictures_of_mats(pixels);
   EXPECT_FALSE(bright_spots(std::span(all).first(kLeastPictures - 1)));
   pixels[3] = cv::Mat(50, 50, CV_8U, cv::Scalar(0));
-  EXPECT_FALSE(bright_spots(pictures(pixels)));
+  EXPECT_FALSE(bright_spots(tests::pictures_of_mats(pixels)));
 }
 
 }  // namespace
