@@ -19,6 +19,7 @@ Result<CameraAlignment> with_outline(const optics::Rig& rig, const optics::RigCa
 
 Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamera& camera,
                                   const align::DriftState& drift) {
+  if (drift.is_learning) return fail("the zero of its drift is being learnt: wait some seconds");
   if (drift.level == align::DriftLevel::NotMeasured) {
     return fail("its drift is not measured: " + std::string(drift.reason));
   }

@@ -11,8 +11,8 @@
 namespace orbwatch::app {
 
 /// The alignment that a camera has after its drift: one that turned about its own centre looks
-/// elsewhere, else the ball is elsewhere in its picture. Reentrant. Error: nothing was measured;
-/// those of align::by_outline.
+/// elsewhere, else the ball is elsewhere in its picture. Reentrant. Error: nothing was measured,
+/// the zero is being learnt; those of align::by_outline.
 Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamera& camera,
                                   const align::DriftState& drift);
 

@@ -30,6 +30,12 @@ WatchLevel level_of(align::DriftLevel level) {
   return WatchLevel::NotMeasured;
 }
 
+AlignmentLevel level_of(const align::DriftState& drift) {
+  if (drift.is_learning) return AlignmentLevel::Learning;
+  if (drift.level == align::DriftLevel::NotMeasured) return AlignmentLevel::NotVisible;
+  return alignment_level(level_of(drift.level));
+}
+
 }  // namespace
 
 Result<AlignmentWatch> AlignmentWatch::make(const std::string& name,
@@ -67,16 +73,15 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
   const auto drift = monitor_.observe(picture, stamp.time_since_epoch());
   if (!drift) return;  // another size: the camera has a fault
   drift_ = *drift;
-  const WatchLevel level = level_of(drift_.level);
-  figures.alignment = alignment_level(level);
-  const bool is_measured = drift_.level != align::DriftLevel::NotMeasured;
+  figures.alignment = level_of(drift_);
+  const bool is_measured = drift_.level != align::DriftLevel::NotMeasured && !drift_.is_learning;
   const double radius = optics::mean_radius(drift_.outline);
   figures.drift_error = is_measured ? drift_.direction_error : signals::kNotValid;
   figures.drift_shift =
       is_measured ? kPercentOfRadius * std::hypot(drift_.motion.u, drift_.motion.v) / radius
                   : signals::kNotValid;
   if (!is_referred_ && drift_.level == align::DriftLevel::Good) keep(picture);
-  log_level(level);
+  log_level(is_measured ? level_of(drift_.level) : WatchLevel::NotMeasured);
 }
 
 void AlignmentWatch::keep(const Picture& picture) {

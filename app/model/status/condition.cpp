@@ -16,9 +16,12 @@ Severity severity_of(WatchLevel level) {
   return level == WatchLevel::Warning ? Severity::Warning : Severity::None;
 }
 
+/// Learning and darkness pass.
 Severity severity_of(AlignmentLevel level) {
-  if (level == AlignmentLevel::NotRegistered) return Severity::Warning;
-  return severity_of(static_cast<WatchLevel>(level));
+  const bool is_warning =
+      level == AlignmentLevel::Warning || level == AlignmentLevel::NotRegistered;
+  if (is_warning) return Severity::Warning;
+  return level == AlignmentLevel::Alarm ? Severity::Alarm : Severity::None;
 }
 
 Severity severity_of(SystemState state) {

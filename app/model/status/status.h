@@ -198,14 +198,16 @@ constexpr std::string_view operator_text(WatchLevel level) {
   return {};
 }
 
-/// State of a camera's alignment: a WatchLevel, or not registered. The numbers go to the PLC:
-/// append, never renumber.
+/// State of watching a camera's alignment: a WatchLevel, or the reason why there is none. The
+/// numbers go to the PLC: append, never renumber.
 enum class AlignmentLevel : std::uint8_t {
-  NotMeasured = 0,
+  NotMeasured = 0,  ///< not watched, or no picture yet
   Good = 1,
   Warning = 2,
   Alarm = 3,
   NotRegistered = 4,  ///< the rig has no registration
+  Learning = 5,       ///< a motion now moves the zero, too
+  NotVisible = 6,
 };
 
 /// The same level by its number.
@@ -215,10 +217,20 @@ constexpr AlignmentLevel alignment_level(WatchLevel level) {
 
 /// The one place of the operator's text for each level. Empty for a number that is none.
 constexpr std::string_view operator_text(AlignmentLevel level) {
-  if (level == AlignmentLevel::NotRegistered) {
-    return "not registered, and left out of merged and measured views";
+  switch (level) {
+    case AlignmentLevel::NotMeasured:
+    case AlignmentLevel::Good:
+    case AlignmentLevel::Warning:
+    case AlignmentLevel::Alarm:
+      return operator_text(static_cast<WatchLevel>(level));
+    case AlignmentLevel::NotRegistered:
+      return "not registered, and left out of merged and measured views";
+    case AlignmentLevel::Learning:
+      return "learning the zero of its drift: the ball must rest";
+    case AlignmentLevel::NotVisible:
+      return "not measured, the ball is not visible: dark, overexposed, hidden or elsewhere";
   }
-  return operator_text(static_cast<WatchLevel>(level));
+  return {};
 }
 
 /// State of the alignment requested last. The numbers go to the PLC: append, never renumber.
@@ -253,10 +265,12 @@ constexpr std::string_view name_of(ProposalState state) {
 
 #define ORBWATCH_WATCH_FIGURES(FIELD)                                                              \
   FIELD(AlignmentLevel, alignment, kCode,                                                          \
-        "State of the alignment: the ball's position compared with that of the alignment")         \
+        "State of watching the alignment: the ball's position compared with its zero, which is "   \
+        "learnt after an alignment")                                                               \
   FIELD(double, drift_error, kAngle,                                                               \
-        "Error of the directions that views show, rms, since it was aligned")                      \
-  FIELD(double, drift_shift, kPercent, "Shift of the ball's picture, relative to its radius")      \
+        "Error of the directions that views show, rms, since the zero was learnt")                 \
+  FIELD(double, drift_shift, kPercent,                                                             \
+        "Shift of the ball's picture from its zero, relative to its radius")                       \
   FIELD(WatchLevel, focus, kCode, "Sharpness of the reflection in the ball")                       \
   FIELD(double, blur, kBlur,                                                                       \
         "Blur of the reflection in the ball: sigma of a Gaussian, pixel size included")            \

@@ -132,6 +132,7 @@ class DriftMonitor::Impl {
     measured_at_ = time;
     add(*motion, time);
     state_.reason = {};
+    state_.is_learning = is_settling_;
     state_.motion = statistics_.mean() - origin_;
     state_.outline = moved(subject_.outline, state_.motion);
     state_.direction_error = error_of(state_.motion);
@@ -173,6 +174,7 @@ class DriftMonitor::Impl {
 
   DriftState not_measured(std::string_view reason) {
     state_.level = DriftLevel::NotMeasured;
+    state_.is_learning = reason == fault::kNoReference;
     state_.reason = reason;
     return state_;
   }

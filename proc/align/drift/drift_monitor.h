@@ -47,6 +47,8 @@ std::string_view text(DriftCause cause);
 /// Measured drift of the alignment.
 struct DriftState {
   DriftLevel level = DriftLevel::NotMeasured;
+  /// The zero is being learnt: a slow motion now moves it, too, and `motion` says little.
+  bool is_learning = false;
   std::string_view reason;  ///< reason for an operator while it is not measured; static text
   /// Motion of the ball's picture, mean over the last frames; the last measured one while not
   /// measured.

@@ -89,5 +89,15 @@ TEST(DriftCorrection, RefusesWhatWasNotMeasured) {
   EXPECT_NE(alignment.error().message.find("too dark"), std::string::npos);
 }
 
+TEST(DriftCorrection, RefusesADriftWhoseZeroIsBeingLearnt) {
+  const optics::Rig rig = drifting_rig();
+  align::DriftState drift;
+  drift.level = align::DriftLevel::Good;
+  drift.is_learning = true;
+  const auto alignment = corrected(rig, rig.cameras[0], drift);
+  ASSERT_FALSE(alignment);
+  EXPECT_NE(alignment.error().message.find("learnt"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace orbwatch::app

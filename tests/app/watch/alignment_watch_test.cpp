@@ -44,14 +44,21 @@ class AlignmentWatchTest : public testing::Test {
     return std::move(*made);
   }
 
-  /// The figures after a second of a picture at 10 per second.
-  CameraWatchStatus after_a_second(AlignmentWatch& watch, const cv::Mat& pixels) {
+  /// The figures after some pictures at 10 per second.
+  CameraWatchStatus after(int pictures, AlignmentWatch& watch, const cv::Mat& pixels) {
     CameraWatchStatus figures;
-    for (int n = 0; n < 10; ++n) {
+    for (int n = 0; n < pictures; ++n) {
       now_ += std::chrono::milliseconds(100);
       watch.observe(orbwatch::tests::picture_of_mat(pixels), now_, figures);
     }
     return figures;
+  }
+  CameraWatchStatus after_a_second(AlignmentWatch& watch, const cv::Mat& pixels) {
+    return after(10, watch, pixels);
+  }
+  /// Longer than the zero takes to be learnt.
+  CameraWatchStatus after_learning(AlignmentWatch& watch, const cv::Mat& pixels) {
+    return after(40, watch, pixels);
   }
 
   orbwatch::tests::TemporaryFolder folder_;
@@ -60,15 +67,36 @@ class AlignmentWatchTest : public testing::Test {
 
 TEST_F(AlignmentWatchTest, SaysThatTheBallIsWhereItWas) {
   AlignmentWatch watch = this->watch();
-  const CameraWatchStatus seen = after_a_second(watch, picture(0));
+  const CameraWatchStatus seen = after_learning(watch, picture(0));
   EXPECT_EQ(seen.alignment, AlignmentLevel::Good);
   EXPECT_LT(seen.drift_error, 0.05);
   EXPECT_LT(seen.drift_shift, 0.05);
 }
 
-TEST_F(AlignmentWatchTest, RaisesAnAlarmWhenItMoved) {
+TEST_F(AlignmentWatchTest, SaysThatItLearnsItsZeroAndKnowsNoDriftMeanwhile) {
+  AlignmentWatch watch = this->watch();
+  for (int n = 0; n < 28; ++n) {  // five pictures, and 2.4 s from the fifth on
+    const CameraWatchStatus seen = after(1, watch, picture(0));
+    ASSERT_EQ(seen.alignment, AlignmentLevel::Learning) << n;
+    EXPECT_TRUE(std::isnan(seen.drift_error)) << n;
+    EXPECT_TRUE(std::isnan(seen.drift_shift)) << n;
+    EXPECT_TRUE(watch.drift().is_learning);
+  }
+  EXPECT_EQ(after(2, watch, picture(0)).alignment, AlignmentLevel::Good);
+  EXPECT_FALSE(watch.drift().is_learning);
+}
+
+TEST_F(AlignmentWatchTest, AJumpEndsTheLearning) {
   AlignmentWatch watch = this->watch();
   after_a_second(watch, picture(0));
+  const CameraWatchStatus seen = after_a_second(watch, picture(5));
+  EXPECT_EQ(seen.alignment, AlignmentLevel::Alarm);
+  EXPECT_NEAR(seen.drift_shift, 4.3, 0.4) << "5 of 115 px";
+}
+
+TEST_F(AlignmentWatchTest, RaisesAnAlarmWhenItMoved) {
+  AlignmentWatch watch = this->watch();
+  after_learning(watch, picture(0));
   const CameraWatchStatus seen = after_a_second(watch, picture(2.3));
   EXPECT_EQ(seen.alignment, AlignmentLevel::Alarm);
   EXPECT_NEAR(seen.drift_shift, 2, 0.2) << "2.3 of 115 px";
@@ -78,7 +106,7 @@ TEST_F(AlignmentWatchTest, RaisesAnAlarmWhenItMoved) {
 TEST_F(AlignmentWatchTest, KnowsAfterARestartWhereTheBallWas) {
   {
     AlignmentWatch watch = this->watch();
-    after_a_second(watch, picture(0));
+    after_learning(watch, picture(0));
   }
   ASSERT_EQ(folder_.files(), 1);
   AlignmentWatch watch = this->watch();
@@ -88,33 +116,33 @@ TEST_F(AlignmentWatchTest, KnowsAfterARestartWhereTheBallWas) {
 TEST_F(AlignmentWatchTest, BeginsAnewWithAnotherAlignment) {
   {
     AlignmentWatch watch = this->watch();
-    after_a_second(watch, picture(0));
+    after_learning(watch, picture(0));
   }
   optics::Outline moved = kPaintedLimb;
   moved.centre.u += 2.3;
   AlignmentWatch watch = this->watch(moved);
-  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, AlignmentLevel::Good);
+  EXPECT_EQ(after_learning(watch, picture(2.3)).alignment, AlignmentLevel::Good);
   EXPECT_EQ(folder_.files(), 1) << "the earlier one is gone";
 }
 
 TEST_F(AlignmentWatchTest, DoesNotMeasureInTheDark) {
   AlignmentWatch watch = this->watch();
-  after_a_second(watch, picture(0));
+  after_learning(watch, picture(0));
   const CameraWatchStatus seen = after_a_second(watch, cv::Mat(320, 400, CV_8U, cv::Scalar(0)));
-  EXPECT_EQ(seen.alignment, AlignmentLevel::NotMeasured);
+  EXPECT_EQ(seen.alignment, AlignmentLevel::NotVisible);
   EXPECT_TRUE(std::isnan(seen.drift_error));
 }
 
 TEST_F(AlignmentWatchTest, WorksWithoutAUsableFile) {
   {
     AlignmentWatch watch = this->watch();
-    after_a_second(watch, picture(0));
+    after_learning(watch, picture(0));
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
     std::ofstream(entry.path()) << "no picture";
   }
   AlignmentWatch watch = this->watch();
-  EXPECT_EQ(after_a_second(watch, picture(0)).alignment, AlignmentLevel::Good);
+  EXPECT_EQ(after_learning(watch, picture(0)).alignment, AlignmentLevel::Good);
 }
 
 }  // namespace

@@ -33,6 +33,11 @@ bool any_stands(const Status& status, Severity severity) {
   });
 }
 
+/// Beyond a limit, or not registered.
+bool is_misaligned(AlignmentLevel level) {
+  return level >= AlignmentLevel::Warning && level <= AlignmentLevel::NotRegistered;
+}
+
 bool any_awaits_acknowledgement(const Status& status) {
   return std::ranges::any_of(alarms_of(status), [](const AlarmStatus& alarm) {
     return signals::awaits_acknowledgement(alarm.alarm.state);
@@ -171,11 +176,10 @@ std::vector<Bit> fault_bits() {
            const Status& status = image.live.status;
            return i < status.camera_count && status.cameras[i].fault != hal::Fault::None;
          });
-  append(bits, kMaxCameras, "camera_#_moved",
-         "Camera # is misaligned or not registered: see its alignment register",
-         [](I image, std::size_t i) {
-           return image.live.status.cameras[i].alignment >= AlignmentLevel::Warning;
-         });
+  append(
+      bits, kMaxCameras, "camera_#_moved",
+      "Camera # is misaligned or not registered: see its alignment register",
+      [](I image, std::size_t i) { return is_misaligned(image.live.status.cameras[i].alignment); });
   append(bits, kMaxCameras, "camera_#_maintenance",
          "Camera # is out of focus or the ball is dirty: see its registers focus and cleanliness",
          [](I image, std::size_t i) {

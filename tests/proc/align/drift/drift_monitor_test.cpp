@@ -104,6 +104,21 @@ TEST_F(DriftMonitorTest, SaysGoodWhenNothingMoves) {
   }
 }
 
+TEST_F(DriftMonitorTest, SaysThatItLearnsItsZeroUntilThatIsFixed) {
+  for (int n = 0; n < 4; ++n) EXPECT_TRUE(see(1, {}, {}).is_learning) << "collects, " << n;
+  for (int n = 0; n < 73; ++n) ASSERT_TRUE(see(1, {}, {}).is_learning) << "averages 2.4 s, " << n;
+  EXPECT_FALSE(see(1, {}, {}).is_learning);
+  const DriftState moved = see(90, {0.9, 0}, {0.9, 0});
+  EXPECT_FALSE(moved.is_learning);
+  EXPECT_NEAR(moved.motion.u, 0.9, 0.03);
+}
+
+TEST_F(DriftMonitorTest, DarknessIsNotLearning) {
+  EXPECT_FALSE(see(drawn_.at({}, {}, 0)).is_learning);
+  see(90, {}, {});
+  EXPECT_FALSE(see(drawn_.at({}, {}, 0)).is_learning);
+}
+
 TEST_F(DriftMonitorTest, MeasuresATurnedCamera) {
   see(90, {}, {});
   const DriftState state = see(90, {1.3, -0.8}, {1.3, -0.8});

@@ -199,7 +199,8 @@ export const texts = {
     drift_error: "Error of the view directions",
     blur: "Blur",
     contamination: "Dirt on the ball",
-    now: (name, value, unit, level) => `${name}: ${value} ${unit}, ${level}`,
+    now: (name, value, level) => `${name}: ${value}, ${level}`,
+    notKnown: "not known",
   },
   compare: {
     canvas: "One view by both cameras",

@@ -285,6 +285,8 @@ void RegisterSources::expect_cameras_and_views() {
     expect_of("damaged", [](C c) { ++c.damaged; });
     expect_of("flawed", [](C c) { ++c.flawed; });
     expect_of("alignment", [](C c) { c.alignment = AlignmentLevel::Alarm; }, {"fault_bits"});
+    expect_of("alignment", [](C c) { c.alignment = AlignmentLevel::Learning; });
+    expect_of("alignment", [](C c) { c.alignment = AlignmentLevel::NotVisible; });
     expect_of("drift_error", [](C c) { c.drift_error = 1; });
     expect_of("drift_shift", [](C c) { c.drift_shift = 1; });
     expect_of("focus", [](C c) { c.focus = WatchLevel::Alarm; }, {"fault_bits"});

@@ -40,8 +40,8 @@ export class Watched {
   #show(camera, now) {
     for (const [name, judge] of Object.entries(kFigures)) {
       const { unit = "" } = this.descriptions[name] ?? {}, { now: said, canvas } = this.parts[name];
-      setText(said, texts.watched.now(texts.watched[name], figureText(camera[name]), unit,
-        camera[`${judge}_text`]));
+      const value = camera[name] === null ? texts.watched.notKnown : `${figureText(camera[name])} ${unit}`;
+      setText(said, texts.watched.now(texts.watched[name], value, camera[`${judge}_text`]));
       this.#histories[name].refresh(now);
       drawChart(canvas, this.#histories[name], texts.watched[name], unit, now);
     }
