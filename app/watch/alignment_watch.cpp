@@ -3,12 +3,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <system_error>
 #include <utility>
 
 #include "app/log.h"
-#include "app/watch/kept_file.h"
-#include "hal/replay/picture_decoder.h"
 #include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::app {
@@ -41,35 +38,45 @@ AlignmentLevel level_of(const align::DriftState& drift) {
 Result<AlignmentWatch> AlignmentWatch::make(const std::string& name,
                                             const align::DriftSubject& subject,
                                             const WatchSettings& settings,
-                                            const std::filesystem::path& folder) {
+                                            const std::filesystem::path& folder,
+                                            std::uint32_t alignment) {
   auto monitor = align::DriftMonitor::make(subject, settings.drift);
   if (!monitor) return tl::unexpected(monitor.error());
-  AlignmentWatch watch(name, std::move(*monitor),
-                       kept_file(folder, "aligned", name, subject.outline));
-  watch.refer();
-  return watch;
+  return AlignmentWatch(name, std::move(*monitor), zero_file(folder, name),
+                        {.alignment = alignment, .width = subject.width, .height = subject.height});
 }
 
 AlignmentWatch::AlignmentWatch(std::string name, align::DriftMonitor monitor,
-                               std::filesystem::path reference)
-    : name_(std::move(name)), monitor_(std::move(monitor)), reference_(std::move(reference)) {}
+                               std::filesystem::path file, const ZeroSubject& subject)
+    : name_(std::move(name)),
+      monitor_(std::move(monitor)),
+      file_(std::move(file)),
+      subject_(subject) {}
 
-void AlignmentWatch::refer() {
-  std::error_code error;
-  if (!std::filesystem::exists(reference_, error)) return;
-  const auto picture = hal::read_picture(reference_);
-  const auto referred =
-      picture ? monitor_.refer_to(picture->picture) : Result<>(tl::unexpected(picture.error()));
-  is_referred_ = referred.has_value();
-  if (!referred) {
-    log_camera(LogLevel::Warning, name_,
-               "the picture of its alignment cannot be used, the first one from now on counts: " +
-                   referred.error().message);
+/// Continues with the zero that is kept. Only a picture states the format that it must be of.
+void AlignmentWatch::begin(const Picture& picture) {
+  if (picture.width != subject_.width || picture.height != subject_.height) return;
+  has_begun_ = true;
+  subject_.format = luminance_format(picture.format);
+  const auto kept = kept_zero(file_, subject_);
+  if (kept && !*kept) {
+    log_camera(LogLevel::Info, name_,
+               "learns the zero of its drift: none is kept of this alignment");
+    return;
   }
+  const auto referred = kept.and_then([&](const std::optional<KeptZero>& zero) {
+    return monitor_.refer_to(luminance_picture(zero->luminance, subject_.format), zero->zero);
+  });
+  knows_zero_ = referred.has_value();
+  if (referred) return;
+  log_camera(LogLevel::Warning, name_,
+             "learns the zero of its drift anew, and a motion before this start is not noticed: " +
+                 referred.error().message);
 }
 
 void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
                              CameraWatchStatus& figures) {
+  if (!has_begun_) begin(picture);
   const auto drift = monitor_.observe(picture, stamp.time_since_epoch());
   if (!drift) return;  // another size: the camera has a fault
   drift_ = *drift;
@@ -80,18 +87,28 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
   figures.drift_shift =
       is_measured ? kPercentOfRadius * std::hypot(drift_.motion.u, drift_.motion.v) / radius
                   : signals::kNotValid;
-  if (!is_referred_ && drift_.level == align::DriftLevel::Good) keep(picture);
+  if (!knows_zero_) learn(picture);
   log_level(is_measured ? level_of(drift_.level) : WatchLevel::NotMeasured);
 }
 
-void AlignmentWatch::keep(const Picture& picture) {
-  is_referred_ = true;
-  if (const auto written = keep_file(reference_, align::luminance_of(picture)); !written) {
-    log_camera(LogLevel::Warning, name_,
-               "the picture of its alignment is not kept, after a restart the alignment counts "
-               "from then on: " +
-                   written.error().message);
-  }
+/// The picture that is kept is the first one measured: a jump, which ends the learning, is not in
+/// it.
+void AlignmentWatch::learn(const Picture& picture) {
+  if (drift_.level == align::DriftLevel::NotMeasured) return;
+  if (!first_) first_ = KeptZero{monitor_.zero(), align::luminance_of(picture).clone()};
+  if (drift_.is_learning) return;
+  const align::DriftZero zero = monitor_.zero();
+  keep({{zero.place - first_->zero.place, zero.sigma}, first_->luminance});
+  first_.reset();
+  knows_zero_ = true;
+}
+
+void AlignmentWatch::keep(const KeptZero& zero) {
+  const auto written = keep_zero(file_, subject_, zero);
+  if (written) return;
+  log_camera(LogLevel::Warning, name_,
+             "the zero of its drift is not kept, it is learnt anew after a restart: " +
+                 written.error().message);
 }
 
 void AlignmentWatch::log_level(WatchLevel level) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
 
 #include "app/model/alignment/watch_settings.h"
 #include "app/model/status/status.h"
+#include "app/watch/kept_zero.h"
 #include "hal/clock.h"
 #include "proc/align/drift/drift_monitor.h"
 #include "proc/image/picture.h"
@@ -14,16 +16,16 @@
 
 namespace orbwatch::app {
 
-/// Watches whether one camera still sees the ball where it was aligned. The first good picture
-/// after an alignment is kept as a file: a motion while the appliance is off is detected, too.
+/// Watches whether one camera still sees the ball where it was aligned. The zero, learnt after an
+/// alignment, is kept as a file: a motion while the appliance is off is detected, too.
 /// Thread-bound.
 class AlignmentWatch {
  public:
-  /// `name`: the camera's. `folder`: of what must outlast a restart. Error: an alignment that
-  /// cannot be watched.
+  /// `name`: the camera's. `folder`: of what must outlast a restart. `alignment`: see
+  /// alignment_checksum(). Error: an alignment that cannot be watched.
   static Result<AlignmentWatch> make(const std::string& name, const align::DriftSubject& subject,
                                      const WatchSettings& settings,
-                                     const std::filesystem::path& folder);
+                                     const std::filesystem::path& folder, std::uint32_t alignment);
 
   /// Sets the figures of the alignment. Logs when the level changes.
   void observe(const Picture& picture, hal::TimePoint stamp, CameraWatchStatus& figures);
@@ -32,16 +34,21 @@ class AlignmentWatch {
   const align::DriftState& drift() const { return drift_; }
 
  private:
-  AlignmentWatch(std::string name, align::DriftMonitor monitor, std::filesystem::path reference);
+  AlignmentWatch(std::string name, align::DriftMonitor monitor, std::filesystem::path file,
+                 const ZeroSubject& subject);
 
-  void refer();
-  void keep(const Picture& picture);
+  void begin(const Picture& picture);
+  void learn(const Picture& picture);
+  void keep(const KeptZero& zero);
   void log_level(WatchLevel level);
 
   std::string name_;
   align::DriftMonitor monitor_;
-  std::filesystem::path reference_;  ///< the file
-  bool is_referred_ = false;         ///< there is a reference, or none could be kept
+  std::filesystem::path file_;  ///< of the zero
+  ZeroSubject subject_;
+  bool has_begun_ = false;  ///< the first picture was there
+  bool knows_zero_ = false;
+  std::optional<KeptZero> first_;  ///< the first picture measured, while the zero is learnt
   align::DriftState drift_;
   WatchLevel level_ = WatchLevel::NotMeasured;  ///< logged last
 };

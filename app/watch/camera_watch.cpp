@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/watch/alignment_checksum.h"
 
 namespace orbwatch::app {
 
@@ -74,7 +75,8 @@ Result<std::unique_ptr<CameraWatch::Watched>> CameraWatch::make(
   const auto& [name, in_rig, settings] = site.cameras[camera];
   const auto subject = align::drift_subject(site.rig, site.rig.cameras[in_rig]);
   if (!subject) return tl::unexpected(subject.error());
-  auto alignment = AlignmentWatch::make(name, *subject, settings, folder);
+  auto alignment =
+      AlignmentWatch::make(name, *subject, settings, folder, alignment_checksum(site, camera));
   if (!alignment) return tl::unexpected(alignment.error());
   auto ball =
       BallWatch::make(name, subject->width, subject->height, subject->outline, settings, folder);

@@ -72,7 +72,7 @@ void WatchedMachine::add_camera(PixelFormat format, const cv::Size& size, double
   const auto projection = optics::BallProjection::make(*model, limb, {});
   const align::DriftSubject subject{size.width, size.height, limb, *projection, std::nullopt};
   cameras_.push_back(
-      {app::AlignmentWatch::make(name, subject, {}, folder_).value(),
+      {app::AlignmentWatch::make(name, subject, {}, folder_, 0).value(),
        app::BallWatch::make(name, size.width, size.height, limb, {}, folder_).value(), format,
        noisy_pictures(format, size)});
 }

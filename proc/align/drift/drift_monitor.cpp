@@ -113,15 +113,20 @@ class DriftMonitor::Impl {
     state_.outline = subject.outline;
   }
 
-  Result<> refer_to(const Picture& picture) {
+  Result<> refer_to(const Picture& picture, const std::optional<DriftZero>& zero) {
     if (auto checked = check_size(picture); !checked) return checked;
     state_.reason = exposure_fault(picture, subject_.outline);
     if (!state_.reason.empty()) return fail(std::string(state_.reason));
     reference_.add(picture);
     if (!take_reference(saturation(picture.format))) return fail(std::string(state_.reason));
     is_settling_ = false;
+    if (!zero) return {};
+    origin_ = zero->place;
+    origin_sigma_ = zero->sigma;
     return {};
   }
+
+  DriftZero zero() const { return {origin_, origin_sigma_.value_or(0)}; }
 
   Result<DriftState> observe(const Picture& picture, Time time) {
     if (auto checked = check_size(picture); !checked) return tl::unexpected(checked.error());
@@ -293,7 +298,11 @@ Result<DriftMonitor> DriftMonitor::make(const DriftSubject& subject, const Drift
   return DriftMonitor(std::make_unique<Impl>(subject, limits));
 }
 
-Result<> DriftMonitor::refer_to(const Picture& picture) { return impl_->refer_to(picture); }
+Result<> DriftMonitor::refer_to(const Picture& picture, const std::optional<DriftZero>& zero) {
+  return impl_->refer_to(picture, zero);
+}
+
+DriftZero DriftMonitor::zero() const { return impl_->zero(); }
 
 Result<DriftState> DriftMonitor::observe(const Picture& picture, Time time) {
   return impl_->observe(picture, time);

@@ -61,6 +61,12 @@ struct DriftState {
                                      ///< = turn R_stored (R: world to camera)
 };
 
+/// The zero that drift is measured from, relative to a reference picture.
+struct DriftZero {
+  PictureMotion place;  ///< the ball's motion at the zero against that picture
+  double sigma = 0;     ///< standard deviation of the place, degrees rms of view direction
+};
+
 /// Watches whether a camera or the ball has moved against the stored alignment.
 ///
 /// The reference is the content of the first five usable pictures and the ball's mean place in the
@@ -84,8 +90,12 @@ class DriftMonitor {
   ~DriftMonitor();
 
   /// Sets the picture on which the alignment was made as reference; before the first observe().
-  /// Errors: another size, the reason why it cannot be used.
-  Result<> refer_to(const Picture& picture);
+  /// `zero`: relative to it; none: the ball's place in it. Errors: another size, the reason why it
+  /// cannot be used.
+  Result<> refer_to(const Picture& picture, const std::optional<DriftZero>& zero = std::nullopt);
+
+  /// The zero as far as it is learnt, relative to the reference.
+  DriftZero zero() const;
 
   /// Evaluates a frame; `time` of any clock that does not jump. Error: another size.
   Result<DriftState> observe(const Picture& picture, Time time);

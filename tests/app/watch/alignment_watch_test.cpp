@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -38,8 +39,8 @@ cv::Mat picture(double shift) {
 
 class AlignmentWatchTest : public testing::Test {
  protected:
-  AlignmentWatch watch(const optics::Outline& outline = kPaintedLimb) {
-    auto made = AlignmentWatch::make("a", subject(outline), {}, folder_.path());
+  AlignmentWatch watch(const optics::Outline& outline = kPaintedLimb, std::uint32_t alignment = 1) {
+    auto made = AlignmentWatch::make("a", subject(outline), {}, folder_.path(), alignment);
     EXPECT_TRUE(made) << made.error().message;
     return std::move(*made);
   }
@@ -113,16 +114,41 @@ TEST_F(AlignmentWatchTest, KnowsAfterARestartWhereTheBallWas) {
   EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, AlignmentLevel::Alarm);
 }
 
-TEST_F(AlignmentWatchTest, BeginsAnewWithAnotherAlignment) {
+TEST_F(AlignmentWatchTest, TheZeroOfARestartIsTheMeanThatWasLearnt) {
+  {
+    AlignmentWatch watch = this->watch();
+    after(5, watch, picture(0.6));
+    after_learning(watch, picture(0));
+  }
+  AlignmentWatch watch = this->watch();
+  const CameraWatchStatus seen = after_a_second(watch, picture(0));
+  EXPECT_EQ(seen.alignment, AlignmentLevel::Good);
+  EXPECT_LT(seen.drift_shift, 0.1) << "the picture that is kept is 0.5 % aside";
+}
+
+/// The ball stood for a second, then jumped; the appliance was switched off before it was put back.
+TEST_F(AlignmentWatchTest, AJumpDuringTheLearningIsKnownAfterARestart) {
+  {
+    AlignmentWatch watch = this->watch();
+    after_a_second(watch, picture(0));
+    after(1, watch, picture(5));
+  }
+  AlignmentWatch watch = this->watch();
+  EXPECT_EQ(after(1, watch, picture(5)).alignment, AlignmentLevel::Alarm);
+  EXPECT_EQ(after_a_second(watch, picture(0)).alignment, AlignmentLevel::Good);
+}
+
+TEST_F(AlignmentWatchTest, LearnsANewZeroForAnotherAlignment) {
   {
     AlignmentWatch watch = this->watch();
     after_learning(watch, picture(0));
   }
   optics::Outline moved = kPaintedLimb;
   moved.centre.u += 2.3;
-  AlignmentWatch watch = this->watch(moved);
+  AlignmentWatch watch = this->watch(moved, 2);
+  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, AlignmentLevel::Learning);
   EXPECT_EQ(after_learning(watch, picture(2.3)).alignment, AlignmentLevel::Good);
-  EXPECT_EQ(folder_.files(), 1) << "the earlier one is gone";
+  EXPECT_EQ(folder_.files(), 1) << "it replaces the earlier one";
 }
 
 TEST_F(AlignmentWatchTest, DoesNotMeasureInTheDark) {
@@ -133,16 +159,21 @@ TEST_F(AlignmentWatchTest, DoesNotMeasureInTheDark) {
   EXPECT_TRUE(std::isnan(seen.drift_error));
 }
 
-TEST_F(AlignmentWatchTest, WorksWithoutAUsableFile) {
+TEST_F(AlignmentWatchTest, LearnsAnewWithADamagedFileAndSaysWhy) {
   {
     AlignmentWatch watch = this->watch();
     after_learning(watch, picture(0));
   }
-  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-    std::ofstream(entry.path()) << "no picture";
-  }
+  std::ofstream(zero_file(folder_.path(), "a")) << "no zero";
   AlignmentWatch watch = this->watch();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(after_a_second(watch, picture(0)).alignment, AlignmentLevel::Learning);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("drift-zero-a: is too short"), std::string::npos) << said;
+  EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
   EXPECT_EQ(after_learning(watch, picture(0)).alignment, AlignmentLevel::Good);
+  AlignmentWatch again = this->watch();
+  EXPECT_EQ(after(1, again, picture(0)).alignment, AlignmentLevel::Good) << "it was replaced";
 }
 
 }  // namespace
