@@ -43,15 +43,18 @@ Result<AlignmentWatch> AlignmentWatch::make(const std::string& name,
   auto monitor = align::DriftMonitor::make(subject, settings.drift);
   if (!monitor) return tl::unexpected(monitor.error());
   return AlignmentWatch(name, std::move(*monitor), zero_file(folder, name),
-                        {.alignment = alignment, .width = subject.width, .height = subject.height});
+                        {.alignment = alignment, .width = subject.width, .height = subject.height},
+                        subject.outline);
 }
 
 AlignmentWatch::AlignmentWatch(std::string name, align::DriftMonitor monitor,
-                               std::filesystem::path file, const ZeroSubject& subject)
+                               std::filesystem::path file, const ZeroSubject& subject,
+                               const optics::Outline& stated)
     : name_(std::move(name)),
       monitor_(std::move(monitor)),
       file_(std::move(file)),
-      subject_(subject) {}
+      subject_(subject),
+      stated_(stated) {}
 
 /// Continues with the zero that is kept. Only a picture states the format that it must be of.
 void AlignmentWatch::begin(const Picture& picture) {
@@ -68,7 +71,7 @@ void AlignmentWatch::begin(const Picture& picture) {
     return monitor_.refer_to(luminance_picture(zero->luminance, subject_.format), zero->zero);
   });
   knows_zero_ = referred.has_value();
-  if (referred) return;
+  if (referred) return check(**kept);
   log_camera(LogLevel::Warning, name_,
              "learns the zero of its drift anew, and a motion before this start is not noticed: " +
                  referred.error().message);
@@ -88,6 +91,9 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
       is_measured ? kPercentOfRadius * std::hypot(drift_.motion.u, drift_.motion.v) / radius
                   : signals::kNotValid;
   if (!knows_zero_) learn(picture);
+  figures.outline_check = checked_.state;
+  figures.outline_offset = checked_.offset_percent;
+  figures.outline_offset_px = checked_.offset_px;
   log_level(is_measured ? level_of(drift_.level) : WatchLevel::NotMeasured);
 }
 
@@ -98,9 +104,11 @@ void AlignmentWatch::learn(const Picture& picture) {
   if (!first_) first_ = KeptZero{monitor_.zero(), align::luminance_of(picture).clone()};
   if (drift_.is_learning) return;
   const align::DriftZero zero = monitor_.zero();
-  keep({{zero.place - first_->zero.place, zero.sigma}, first_->luminance});
+  const KeptZero learnt{{zero.place - first_->zero.place, zero.sigma}, first_->luminance};
   first_.reset();
   knows_zero_ = true;
+  keep(learnt);
+  check(learnt);
 }
 
 void AlignmentWatch::keep(const KeptZero& zero) {
@@ -109,6 +117,22 @@ void AlignmentWatch::keep(const KeptZero& zero) {
   log_camera(LogLevel::Warning, name_,
              "the zero of its drift is not kept, it is learnt anew after a restart: " +
                  written.error().message);
+}
+
+/// The ball is a little beside its zero in the picture that is kept.
+void AlignmentWatch::check(const KeptZero& zero) {
+  const optics::Outline there = align::moved(stated_, align::PictureMotion{} - zero.zero.place);
+  checked_ = check_outline(luminance_picture(zero.luminance, subject_.format), there);
+  if (checked_.state == OutlineState::Unknown) {
+    log_camera(LogLevel::Info, name_, "its stated outline is not checked: " + checked_.doubt);
+  }
+  if (checked_.state != OutlineState::NotAligned) return;
+  char offset[64];
+  std::snprintf(offset, sizeof offset, "%.1f px, %.1f %% of the radius", checked_.offset_px,
+                checked_.offset_percent);
+  log_camera(LogLevel::Warning, name_,
+             "its stated outline is " + std::string(operator_text(checked_.state)) + ": off by " +
+                 offset + "; align it (`orbwatch detect`, or the command detect_ball)");
 }
 
 void AlignmentWatch::log_level(WatchLevel level) {

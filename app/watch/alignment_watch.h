@@ -9,6 +9,7 @@
 #include "app/model/alignment/watch_settings.h"
 #include "app/model/status/status.h"
 #include "app/watch/kept_zero.h"
+#include "app/watch/outline_check.h"
 #include "hal/clock.h"
 #include "proc/align/drift/drift_monitor.h"
 #include "proc/image/picture.h"
@@ -17,7 +18,8 @@
 namespace orbwatch::app {
 
 /// Watches whether one camera still sees the ball where it was aligned. The zero, learnt after an
-/// alignment, is kept as a file: a motion while the appliance is off is detected, too.
+/// alignment, is kept as a file: a motion while the appliance is off is detected, too. In the
+/// picture of the zero the ball is looked for, once: an alignment that was wrong does not move.
 /// Thread-bound.
 class AlignmentWatch {
  public:
@@ -35,17 +37,20 @@ class AlignmentWatch {
 
  private:
   AlignmentWatch(std::string name, align::DriftMonitor monitor, std::filesystem::path file,
-                 const ZeroSubject& subject);
+                 const ZeroSubject& subject, const optics::Outline& stated);
 
   void begin(const Picture& picture);
   void learn(const Picture& picture);
   void keep(const KeptZero& zero);
+  void check(const KeptZero& zero);
   void log_level(WatchLevel level);
 
   std::string name_;
   align::DriftMonitor monitor_;
   std::filesystem::path file_;  ///< of the zero
   ZeroSubject subject_;
+  optics::Outline stated_;
+  OutlineCheck checked_;    ///< in the picture of the zero
   bool has_begun_ = false;  ///< the first picture was there
   bool knows_zero_ = false;
   std::optional<KeptZero> first_;  ///< the first picture measured, while the zero is learnt

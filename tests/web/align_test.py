@@ -482,6 +482,8 @@ class Judge(AlignCase):
         eventually("its drift is measured", lambda: watched()["drift_error"] is not None)
         eventually("the page says so", lambda: watched()["alignment_text"]
                    in self.browser.text("#watched p"))
+        eventually("the page says so", lambda: watched()["outline_check_text"]
+                   in self.browser.text("#watched p:last-child"))
         eventually("the chart has it", lambda: "Error of the view directions in the last ten minutes"
                    in self.browser.find_element(By.CSS_SELECTOR, "#watched canvas")
                    .get_attribute("aria-label"))

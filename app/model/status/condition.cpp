@@ -24,6 +24,10 @@ Severity severity_of(AlignmentLevel level) {
   return level == AlignmentLevel::Alarm ? Severity::Alarm : Severity::None;
 }
 
+Severity severity_of(OutlineState state) {
+  return state == OutlineState::NotAligned ? Severity::Warning : Severity::None;
+}
+
 Severity severity_of(SystemState state) {
   switch (state) {
     case SystemState::Starting:
@@ -75,6 +79,7 @@ Condition condition_of(const CameraStatus& camera) {
   };
   const bool is_registered = camera.alignment != AlignmentLevel::NotRegistered;
   add(is_registered ? "its alignment" : "it", camera.alignment);
+  add("its outline", camera.outline_check);
   add("its focus", camera.focus);
   add("its ball's dirt", camera.cleanliness);
   return condition;

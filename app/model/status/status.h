@@ -233,6 +233,27 @@ constexpr std::string_view operator_text(AlignmentLevel level) {
   return {};
 }
 
+/// The stated outline of a camera's ball compared with the ball found in its picture. The numbers
+/// go to the PLC: append, never renumber.
+enum class OutlineState : std::uint8_t {
+  Unknown = 0,
+  Aligned = 1,
+  NotAligned = 2,
+};
+
+/// The one place of the operator's text for each state. Empty for a number that is none.
+constexpr std::string_view operator_text(OutlineState state) {
+  switch (state) {
+    case OutlineState::Unknown:
+      return "not known: no zero yet, or the ball is not found for sure";
+    case OutlineState::Aligned:
+      return "aligned with the ball that is found";
+    case OutlineState::NotAligned:
+      return "not aligned with the ball that is found";
+  }
+  return {};
+}
+
 /// State of the alignment requested last. The numbers go to the PLC: append, never renumber.
 enum class ProposalState : std::uint8_t {
   None = 0,
@@ -284,6 +305,17 @@ constexpr std::string_view name_of(ProposalState state) {
   FIELD(std::uint64_t, marked_points, kCount,                                                      \
         "Points that mark_point added for place_camera since the start")
 
+/// Watch figures whose places follow those of the link.
+#define ORBWATCH_OUTLINE_FIGURES(FIELD)                                                        \
+  FIELD(OutlineState, outline_check, kCode,                                                    \
+        "The stated outline compared with the ball found in the picture of the zero")          \
+  FIELD(double, outline_offset, kPercent,                                                      \
+        "Largest distance between the stated outline and that of the ball found, relative to " \
+        "its radius")                                                                          \
+  FIELD(double, outline_offset_px, kOffset,                                                    \
+        "Largest distance between the stated outline and that of the ball found")
+
+inline constexpr Quantity kOffset{"px", 0.01, 0, 100000};
 inline constexpr Quantity kAngle{"deg", 0.001, 0, 180};
 inline constexpr Quantity kPercent{"%", 0.01, 0, 10000};
 inline constexpr Quantity kBlur{"px", 0.01, 0, 1000};
@@ -299,6 +331,7 @@ inline constexpr double kNotMeasured<double> = signals::kNotValid;
 /// NotMeasured.
 struct CameraWatchStatus {
   ORBWATCH_WATCH_FIGURES(ORBWATCH_WATCH_MEMBER)
+  ORBWATCH_OUTLINE_FIGURES(ORBWATCH_WATCH_MEMBER)
 };
 
 #define ORBWATCH_CAMERA_FIGURES(FIELD, AGE)                                                        \
@@ -420,14 +453,16 @@ template <class Visit>
 constexpr void for_each_field(std::type_identity<CameraWatchStatus>, Visit&& visit) {
   using Part = CameraWatchStatus;
   ORBWATCH_WATCH_FIGURES(ORBWATCH_VISIT_FIELD)
+  ORBWATCH_OUTLINE_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
 template <class Visit>
 constexpr void for_each_field(std::type_identity<CameraStatus>, Visit&& visit) {
   using Part = CameraStatus;
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
-  for_each_field(std::type_identity<CameraWatchStatus>{}, visit);
+  ORBWATCH_WATCH_FIGURES(ORBWATCH_VISIT_FIELD)
   ORBWATCH_LINK_FIGURES(ORBWATCH_VISIT_FIELD)
+  ORBWATCH_OUTLINE_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
 template <class Visit>

@@ -26,6 +26,7 @@ namespace {
 
 using app::CommandCode;
 using app::CommandResult;
+using app::OutlineState;
 using app::ProposalState;
 using app::WatchLevel;
 
@@ -397,6 +398,9 @@ TEST_F(AlignmentCommands, ADriftIsAnAlarmAndBecomesTheAlignment) {
     Subprocess daemon = start(config);
     ASSERT_TRUE(eventually(daemon, [&] {
       return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
+    })) << daemon.output();
+    EXPECT_TRUE(eventually(daemon, [&] {
+      return read("camera_0_outline_check") == static_cast<int>(OutlineState::Aligned);
     })) << daemon.output();
   }
   show({{206.3, 161.7}, 115, 115, 0});  // while the lamp is off

@@ -27,9 +27,12 @@ class RenderedWatch : public testing::Test {
     }
   }
 
-  AlignmentWatch watch(std::uint32_t alignment = 1) const {
-    const align::DriftSubject subject{frames_[0].cols, frames_[0].rows,
-                                      sequence_->camera().outline().value(), sequence_->camera(),
+  /// `size`: of the stated outline, relative to the true one.
+  AlignmentWatch watch(std::uint32_t alignment = 1, double size = 1) const {
+    optics::Outline stated = sequence_->camera().outline().value();
+    stated.rx *= size;
+    stated.ry *= size;
+    const align::DriftSubject subject{frames_[0].cols, frames_[0].rows, stated, sequence_->camera(),
                                       std::nullopt};
     return AlignmentWatch::make("a", subject, {}, folder_.path(), alignment).value();
   }
@@ -78,6 +81,32 @@ TEST_F(RenderedWatch, MeasuresAtOnceAfterARestart) {
   const CameraWatchStatus seen = before_bump(watch, 1);
   EXPECT_EQ(seen.alignment, AlignmentLevel::Good);
   EXPECT_LT(seen.drift_error, 0.03);
+}
+
+TEST_F(RenderedWatch, AnOutlineThatIsRightIsAligned) {
+  AlignmentWatch watch = this->watch();
+  EXPECT_EQ(before_bump(watch, 20).outline_check, OutlineState::Unknown) << "no zero yet";
+  const CameraWatchStatus seen = before_bump(watch, 20);
+  EXPECT_EQ(seen.outline_check, OutlineState::Aligned);
+  EXPECT_LT(seen.outline_offset, 1);
+}
+
+/// Nothing moves, and yet the views are wrong.
+TEST_F(RenderedWatch, AnOutlineThatIsFivePerCentWrongIsNotAlignedAlthoughNothingMoves) {
+  for (const double size : {0.95, 1.05}) {
+    const auto alignment = static_cast<std::uint32_t>(100 * size);
+    {
+      AlignmentWatch watch = this->watch(alignment, size);
+      const CameraWatchStatus seen = before_bump(watch, 40);
+      EXPECT_EQ(seen.alignment, AlignmentLevel::Good);
+      EXPECT_LT(seen.drift_error, 0.03);
+      EXPECT_EQ(seen.outline_check, OutlineState::NotAligned);
+      EXPECT_NEAR(seen.outline_offset, 5, 1);
+      EXPECT_GT(seen.outline_offset_px, 3);
+    }
+    AlignmentWatch watch = this->watch(alignment, size);
+    EXPECT_EQ(before_bump(watch, 1).outline_check, OutlineState::NotAligned) << "after a restart";
+  }
 }
 
 TEST_F(RenderedWatch, ANewAlignmentHasANewZero) {

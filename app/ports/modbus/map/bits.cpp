@@ -186,6 +186,11 @@ std::vector<Bit> fault_bits() {
            const CameraStatus& camera = image.live.status.cameras[i];
            return std::max(camera.focus, camera.cleanliness) >= WatchLevel::Warning;
          });
+  append(bits, kMaxCameras, "camera_#_not_aligned",
+         "The stated outline of camera # is not that of its ball: see its register outline_check",
+         [](I image, std::size_t i) {
+           return image.live.status.cameras[i].outline_check == OutlineState::NotAligned;
+         });
   return bits;
 }
 

@@ -199,6 +199,8 @@ export const texts = {
     drift_error: "Error of the view directions",
     blur: "Blur",
     contamination: "Dirt on the ball",
+    outline: (state, percent, isKnown) => `The stated outline is ${state}` +
+      `${isKnown ? `; off by ${percent} % of its radius` : ""}.`,
     now: (name, value, level) => `${name}: ${value}, ${level}`,
     notKnown: "not known",
   },

@@ -114,6 +114,18 @@ TEST_F(Diagnostics, CameraTellsThatItMovedOrItsBallIsDirty) {
             "its alarm limit");
 }
 
+TEST_F(Diagnostics, CameraTellsThatItsOutlineIsWrongAlthoughNothingMoved) {
+  status_.cameras[0].fault = hal::Fault::None;
+  status_.cameras[0].alignment = AlignmentLevel::Good;
+  status_.cameras[0].outline_check = OutlineState::NotAligned;
+  const Diagnostic camera = found("orbwatch: camera colour");
+  EXPECT_EQ(camera.level, DiagnosticLevel::Warn);
+  EXPECT_EQ(camera.message,
+            "camera delivers; its outline is not aligned with the ball that is found");
+  status_.cameras[0].outline_check = OutlineState::Unknown;
+  EXPECT_EQ(level("orbwatch: camera colour"), DiagnosticLevel::Ok);
+}
+
 TEST_F(Diagnostics, ViewAndRegionAreStaleBeforeTheyGiveAnything) {
   EXPECT_EQ(level("orbwatch: view front"), DiagnosticLevel::Ok);
   EXPECT_EQ(value(found("orbwatch: view front"), "skipped"),

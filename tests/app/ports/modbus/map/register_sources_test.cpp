@@ -299,6 +299,11 @@ void RegisterSources::expect_cameras_and_views() {
     expect_of("missing_packets", [](C c) { ++c.missing_packets; });
     expect_of("resent_packets", [](C c) { ++c.resent_packets; });
     expect_of("underruns", [](C c) { ++c.underruns; });
+    expect_of("outline_check", [](C c) { c.outline_check = OutlineState::Aligned; });
+    expect_of("outline_check", [](C c) { c.outline_check = OutlineState::NotAligned; },
+              {"fault_bits"});
+    expect_of("outline_offset", [](C c) { c.outline_offset = 1; });
+    expect_of("outline_offset_px", [](C c) { c.outline_offset_px = 1; });
   }
   for (std::size_t i = 0; i < kMaxViews; ++i) {
     const auto expect_of = [&](const std::string& what, auto change) {

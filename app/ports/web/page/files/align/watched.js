@@ -18,8 +18,9 @@ export class Watched {
     this.descriptions = descriptions;
     this.parts = Object.fromEntries(Object.keys(kFigures).map((name) => [name, {
       now: element("p"), canvas: chartCanvas(texts.watched[name]) }]));
+    this.outline = element("p");
     this.root = element("section", { id: "watched" }, element("h3", {}, texts.watched.title),
-      ...Object.values(this.parts).flatMap(({ now, canvas }) => [now, canvas]));
+      ...Object.values(this.parts).flatMap(({ now, canvas }) => [now, canvas]), this.outline);
   }
 
   // `chosen`: name of the camera that is shown, or nothing.
@@ -38,6 +39,8 @@ export class Watched {
   }
 
   #show(camera, now) {
+    setText(this.outline, texts.watched.outline(camera.outline_check_text,
+      figureText(camera.outline_offset), camera.outline_offset !== null));
     for (const [name, judge] of Object.entries(kFigures)) {
       const { unit = "" } = this.descriptions[name] ?? {}, { now: said, canvas } = this.parts[name];
       const value = camera[name] === null ? texts.watched.notKnown : `${figureText(camera[name])} ${unit}`;
