@@ -46,7 +46,8 @@ class Attempt {
         if (refusal.empty()) refusal = fine.error().message;
       } else if (!found) {
         found = *fine;
-      } else if (angle_between(fine->registration.rotation, found->registration.rotation) > kOneRotation) {
+      } else if (angle_between(fine->registration.rotation, found->registration.rotation) >
+                 kOneRotation) {
         return fail(
             "two different rotations explain the process' light and the edges nearly as well");
       }
