@@ -33,11 +33,15 @@ std::uint32_t checksum(const optics::Outline& outline) {
 void make_room(const std::filesystem::path& kept) {
   const std::string name = kept.filename().string();
   const std::string prefix = name.substr(0, name.rfind('-') + 1);
+  // A camera whose name begins alike has longer names of files.
+  const auto is_of_camera = [&](const std::string& other) {
+    return other.starts_with(prefix) && other.size() == name.size();
+  };
   std::error_code error;
   std::filesystem::create_directories(kept.parent_path(), error);
   for (std::filesystem::directory_iterator it(kept.parent_path(), error), end; !error && it != end;
        it.increment(error)) {
-    if (it->path() != kept && it->path().filename().string().starts_with(prefix)) {
+    if (it->path() != kept && is_of_camera(it->path().filename().string())) {
       std::filesystem::remove(it->path(), error);
     }
   }
