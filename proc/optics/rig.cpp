@@ -7,12 +7,12 @@
 namespace orbwatch::optics {
 namespace {
 
-/// Checks for required and excluded members before anything is computed.
-Result<> check_parts(const RigCamera& camera) {
-  if (camera.pose.has_value() == camera.outline.has_value()) {
-    return fail("give either a pose or the ball's outline");
-  }
-  if (camera.pose && !camera.intrinsics) return fail("a pose needs intrinsics");
+auto about(const std::string& what) {
+  return [what](const Error& error) { return Error{what + ": " + error.message}; };
+}
+
+/// Checks the members that do not depend on where the camera is.
+Result<> check_optics(const RigCamera& camera) {
   if (camera.window) {
     if (!camera.intrinsics) return fail("a window needs intrinsics");
     if (auto checked = check_window(*camera.window); !checked) return checked;
@@ -26,6 +26,16 @@ Result<> check_parts(const RigCamera& camera) {
                 std::to_string(camera.intrinsics->height) + " pixels, the camera has " +
                 std::to_string(camera.width) + "x" + std::to_string(camera.height));
   }
+  return {};
+}
+
+/// Checks for required and excluded members before anything is computed.
+Result<> check_parts(const RigCamera& camera) {
+  if (camera.pose.has_value() == camera.outline.has_value()) {
+    return fail("give either a pose or the ball's outline");
+  }
+  if (camera.pose && !camera.intrinsics) return fail("a pose needs intrinsics");
+  if (auto checked = check_optics(camera); !checked) return checked;
   if (camera.outline) return check_outline(*camera.outline, camera.width, camera.height);
   return {};
 }
@@ -65,15 +75,23 @@ Result<BallProjection> project(const Rig& rig, const RigCamera& camera, const Sc
 }  // namespace
 
 Result<BallProjection> ball_projection(const Rig& rig, const RigCamera& camera) {
-  const auto about = [](const std::string& what) {
-    return [what](const Error& error) { return Error{what + ": " + error.message}; };
-  };
   if (!(rig.ball.radius > 0) || !std::isfinite(rig.ball.radius)) {
     return fail("ball: the radius must be above 0 mm");
   }
   const auto proxy = SceneProxy::make(rig.scene, rig.ball).map_error(about("scene"));
   if (!proxy) return tl::unexpected(proxy.error());
   return project(rig, camera, *proxy).map_error(about("camera " + camera.name));
+}
+
+bool is_unplaced(const RigCamera& camera) { return !camera.pose && !camera.outline; }
+
+Result<> check_unplaced(const RigCamera& camera) {
+  return check_optics(camera)
+      .and_then([&]() -> Result<> {
+        if (!camera.intrinsics) return {};
+        return Lens::make(*camera.intrinsics).map([](const Lens&) {});
+      })
+      .map_error(about("camera " + camera.name));
 }
 
 }  // namespace orbwatch::optics

@@ -42,4 +42,10 @@ struct Rig {
 /// the message begins with the camera's name.
 Result<BallProjection> ball_projection(const Rig& rig, const RigCamera& camera);
 
+/// True for a camera with neither pose nor outline, which is still to be placed. Reentrant.
+bool is_unplaced(const RigCamera& camera);
+
+/// Checks the members of an unplaced camera. Reentrant. Error: as ball_projection().
+Result<> check_unplaced(const RigCamera& camera);
+
 }  // namespace orbwatch::optics

@@ -29,6 +29,9 @@ constexpr const char* kPlaceNotes =
     "--view-point. A view must have been made with the same --rig; it may be rough, since it "
     "serves\n"
     "only to find the pixel of the camera's picture again. --sigma-px is of the camera's picture.\n"
+    "A point must be marked within the ball's outline. A camera with neither pose nor outline in "
+    "the\n"
+    "rig, which other commands refuse, needs --image.\n"
     "The same coordinates in two cameras are the same point. Each camera needs two points, three "
     "when its\n"
     "focal length is unknown; one camera needs four when the ball's centre is. More points, in "
@@ -58,7 +61,7 @@ constexpr const char* kPlaceNotes =
 CliResult<std::string> place(const PlaceOptions& o) {
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (o.cameras.empty()) return usage_error("--camera is missing");
-  const auto rig = files::load_rig(o.rig);
+  const auto rig = files::load_rig(o.rig, files::Unplaced::Allowed);
   if (!rig) return tl::unexpected(rig.error());
   Progress progress;
   const auto request = place_request(o, *rig, progress);

@@ -42,6 +42,14 @@ Result<optics::Outline> outline_of(const PlaceCameraOptions& options,
   return ball->outline;
 }
 
+/// Error: points in a view of a camera that the rig does not place.
+Result<> check_view_points(const PlaceCameraOptions& options, const optics::RigCamera& camera) {
+  if (options.view_points.empty() || !is_unplaced(camera)) return {};
+  return fail("camera " + camera.name +
+              " has no place in the rig, without which no view can be made of it; give --point, a "
+              "pixel of its picture, instead of --view-point");
+}
+
 /// Adds the pixels at which the camera's picture has what the view shows: by the way that the view
 /// was made, whether the rig is right or not.
 Result<> add_view_points(const PlaceOptions& o, const PlaceCameraOptions& options,
@@ -73,6 +81,7 @@ Result<> add_camera(const PlaceOptions& o, const PlaceCameraOptions& options,
                     const optics::Rig& rig, PlaceRequest& request, Progress& progress) {
   const auto camera = find_camera(rig, options.name);
   if (!camera) return tl::unexpected(camera.error());
+  if (auto checked = check_view_points(options, *camera); !checked) return checked;
   auto unplaced = unplaced_camera(*camera, options.focal_unknown);
   if (!unplaced) return tl::unexpected(unplaced.error());
   std::optional<hal::DecodedPicture> decoded;

@@ -81,7 +81,7 @@ Result<> change_camera(TomlEdit& edit, const CameraAlignment& alignment) {
 Result<std::string> aligned_rig(const std::string& text, const std::string& name,
                                 const std::filesystem::path& folder,
                                 const RigAlignment& alignment) {
-  const auto before = parse_rig(text, name, folder);
+  const auto before = parse_rig(text, name, folder, Unplaced::Allowed);
   if (!before) return tl::unexpected(before.error());
   auto edit = TomlEdit::make(text, name);
   if (!edit) return tl::unexpected(edit.error());
@@ -95,7 +95,9 @@ Result<std::string> aligned_rig(const std::string& text, const std::string& name
     if (!changed) return fail(name + ": " + changed.error().message);
   }
   return edit->finish().and_then([&](const std::string& out) {
-    return parse_rig(out, name + ", aligned", folder).map([&](const auto&) { return out; });
+    return parse_rig(out, name + ", aligned", folder, Unplaced::Allowed).map([&](const auto&) {
+      return out;
+    });
   });
 }
 
@@ -108,7 +110,7 @@ Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment&
       })
       .and_then([&](const std::string& text) -> Result<> {
         // Paths in the rig are now relative to its new folder.
-        const auto there = parse_rig(text, out.string(), out.parent_path());
+        const auto there = parse_rig(text, out.string(), out.parent_path(), Unplaced::Allowed);
         if (!there) return tl::unexpected(there.error());
         return hal::write_file(out, text, hal::FileAccess::Folder);
       });

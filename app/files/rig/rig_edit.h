@@ -10,8 +10,8 @@
 namespace orbwatch::app::files {
 
 /// The text of a rig file with the results of an alignment; comments, order and everything else are
-/// kept. `name` and `folder` as for parse_rig(). Errors: a rig that is refused before or after; no
-/// such camera; those of TomlEdit::finish().
+/// kept; cameras that it does not place may be unplaced. `name` and `folder` as for parse_rig().
+/// Errors: a rig that is refused before or after; no such camera; those of TomlEdit::finish().
 Result<std::string> aligned_rig(const std::string& text, const std::string& name,
                                 const std::filesystem::path& folder, const RigAlignment& alignment);
 

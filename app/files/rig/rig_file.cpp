@@ -60,47 +60,59 @@ optics::RigCamera build_camera(const RigCameraSettings& settings, TextFiles& fil
   return camera;
 }
 
-optics::Rig build_rig(const RigSettings& settings, TextFiles& files, Finding& finding) {
+Result<> check_camera(const optics::Rig& rig, const optics::RigCamera& camera, Unplaced unplaced) {
+  if (unplaced == Unplaced::Allowed && is_unplaced(camera)) return check_unplaced(camera);
+  return ball_projection(rig, camera).map([](const optics::BallProjection&) {});
+}
+
+optics::Rig build_rig(const RigSettings& settings, Unplaced unplaced, TextFiles& files,
+                      Finding& finding) {
   optics::Rig rig;
   rig.ball = settings.ball;
   build_scene(settings.scene, rig, finding);
   check_names(settings.cameras, "camera", finding);
   for (const auto& camera : settings.cameras) {
     rig.cameras.push_back(build_camera(camera, files, finding));
-    const auto projection = optics::ball_projection(rig, rig.cameras.back());
-    if (!projection) finding.refuse(camera.line, projection.error().message);
+    const auto checked = check_camera(rig, rig.cameras.back(), unplaced);
+    if (!checked) finding.refuse(camera.line, checked.error().message);
   }
   return rig;
 }
 
 Result<optics::Rig> parse_rig(const std::string& text, const std::string& name,
-                              const std::filesystem::path& folder, TextFiles& files) {
+                              const std::filesystem::path& folder, Unplaced unplaced,
+                              TextFiles& files) {
   Finding finding{name, folder};
   RigSettings settings;
   read_toml(text, settings, finding);
   if (finding.message) return fail(*finding.message);
-  optics::Rig rig = build_rig(settings, files, finding);
+  optics::Rig rig = build_rig(settings, unplaced, files, finding);
   if (finding.message) return fail(*finding.message);
   return rig;
+}
+
+Result<optics::Rig> load_rig(const std::filesystem::path& file, Unplaced unplaced,
+                             TextFiles& files) {
+  return files.read(file, "a TOML file").and_then([&](const std::string& text) {
+    return parse_rig(text, file.string(), file.parent_path(), unplaced, files);
+  });
 }
 
 }  // namespace
 
 Result<optics::Rig> parse_rig(const std::string& text, const std::string& name,
-                              const std::filesystem::path& folder) {
+                              const std::filesystem::path& folder, Unplaced unplaced) {
   TextFiles files;
-  return parse_rig(text, name, folder, files);
+  return parse_rig(text, name, folder, unplaced, files);
 }
 
 Result<optics::Rig> load_rig(const std::filesystem::path& file, TextFiles& files) {
-  return files.read(file, "a TOML file").and_then([&](const std::string& text) {
-    return parse_rig(text, file.string(), file.parent_path(), files);
-  });
+  return load_rig(file, Unplaced::Refused, files);
 }
 
-Result<optics::Rig> load_rig(const std::filesystem::path& file) {
+Result<optics::Rig> load_rig(const std::filesystem::path& file, Unplaced unplaced) {
   TextFiles files;
-  return load_rig(file, files);
+  return load_rig(file, unplaced, files);
 }
 
 std::string rig_manual() {

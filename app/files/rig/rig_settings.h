@@ -193,7 +193,9 @@ void visit(Visitor& v, RigCameraSettings& camera) {
   v.required("height", camera.height, Range::between(1, kMaxSide), "Picture height, px");
   v.optional("model", camera.model, optics::kBallModels, "Projection");
   v.table("intrinsics", camera.lens, "Calibrated lens");
-  v.table("pose", camera.pose, "Measured position and orientation; needs intrinsics");
+  v.table("pose", camera.pose,
+          "Measured position and orientation; needs intrinsics. Only `orbwatch place` accepts a "
+          "camera with neither pose nor outline, to find its pose");
   v.table("outline", camera.limb,
           "The ball's outline in the camera's picture, instead of a pose. With intrinsics, the "
           "ball's direction and distance follow from the limb, and rotation turns the camera's own "

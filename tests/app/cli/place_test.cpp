@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -24,7 +25,7 @@ class Place : public CommandLine {
     write("rig.toml", rig_text());
   }
 
-  std::string rig_text() const {
+  std::string rig_text(bool has_outlines = true) const {
     std::ostringstream out;
     out.precision(12);
     const optics::Vec3& c = machine.centre;
@@ -36,9 +37,10 @@ class Place : public CommandLine {
       out << "\n[[camera]]\nname = \"" << name(n) << "\"\nwidth = " << camera.width
           << "\nheight = " << camera.height << "\n[camera.intrinsics]\nfx = " << camera.focal
           << "\nfy = " << camera.focal << "\ncx = " << camera.middle().u
-          << "\ncy = " << camera.middle().v << "\n[camera.outline]\ncentre = [" << limb.centre.u
-          << ", " << limb.centre.v << "]\nradii = [" << limb.rx << ", " << limb.ry
-          << "]\nangle = " << limb.angle << "\n";
+          << "\ncy = " << camera.middle().v << "\n";
+      if (!has_outlines) continue;
+      out << "[camera.outline]\ncentre = [" << limb.centre.u << ", " << limb.centre.v
+          << "]\nradii = [" << limb.rx << ", " << limb.ry << "]\nangle = " << limb.angle << "\n";
     }
     return out.str();
   }
@@ -183,15 +185,10 @@ TEST_F(Place, NamesAMisclickedPointAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("placed.toml")));
 }
 
-TEST_F(Place, PlacesACameraByTagsWithoutAClick) {
-  std::mt19937_64 random(8);
-  const TagScene scene = random_tag_scene(random, 320, 360, 800);
-  machine = scene.rig;
-  write("rig.toml", rig_text());
-  write("ball.png", picture_of_tags(scene.rig, scene.rig.cameras[0], scene.tags, 2, random));
+std::string list_of(const std::vector<PrintedTag>& tags) {
   std::ostringstream list;
   list.precision(12);
-  for (const PrintedTag& tag : scene.tags) {
+  for (const PrintedTag& tag : tags) {
     list << tag.id << " = ";
     for (std::size_t k = 0; k < 4; ++k) {
       const optics::Vec3& c = tag.corners[k];
@@ -199,7 +196,16 @@ TEST_F(Place, PlacesACameraByTagsWithoutAClick) {
     }
     list << "  # on the wall\n";
   }
-  write("tags.txt", list.str());
+  return list.str();
+}
+
+TEST_F(Place, PlacesACameraByTagsWithoutAClick) {
+  std::mt19937_64 random(8);
+  const TagScene scene = random_tag_scene(random, 320, 360, 800);
+  machine = scene.rig;
+  write("rig.toml", rig_text());
+  write("ball.png", picture_of_tags(scene.rig, scene.rig.cameras[0], scene.tags, 2, random));
+  write("tags.txt", list_of(scene.tags));
   ASSERT_EQ(run({"place", "--rig", path("rig.toml"), "--camera", "A", "--image", path("ball.png"),
                  "--tags", path("tags.txt"), "--json"}),
             0)
@@ -210,11 +216,67 @@ TEST_F(Place, PlacesACameraByTagsWithoutAClick) {
   EXPECT_NEAR(camera["rotation"][8].get<double>(), machine.cameras[0].pose.rotation.row2.z, 5e-3);
 }
 
+TEST_F(Place, FindsTheBallOfAnUnplacedCamera) {
+  std::mt19937_64 random(8);
+  const TagScene scene = random_tag_scene(random, 320, 360, 800);
+  machine = scene.rig;
+  machine.cameras.assign(2, scene.rig.cameras[0]);
+  write("rig.toml", rig_text(false));
+  write("ball.png", picture_of_tags(scene.rig, scene.rig.cameras[0], scene.tags, 2, random));
+  write("tags.txt", list_of(scene.tags));
+  std::vector<std::string> words{
+      "place", "--rig",   path("rig.toml"), "-o",     path("rig.toml"), "--camera",
+      "A",     "--image", path("ball.png"), "--tags", path("tags.txt")};
+  ASSERT_EQ(run(words), 0) << said;
+  const auto one = app::files::load_rig(path("rig.toml"), app::files::Unplaced::Allowed);
+  ASSERT_TRUE(one) << one.error().message;
+  const optics::Mat3& found = one->cameras[0].pose->rotation;
+  EXPECT_NEAR(found.row0.y, machine.cameras[0].pose.rotation.row0.y, 5e-3);
+  EXPECT_NEAR(found.row2.z, machine.cameras[0].pose.rotation.row2.z, 5e-3);
+  EXPECT_TRUE(is_unplaced(one->cameras[1])) << "not placed yet";
+  EXPECT_FALSE(app::files::load_rig(path("rig.toml"))) << "other commands need both";
+  words[6] = "B";
+  ASSERT_EQ(run(words), 0) << said;
+  const auto both = app::files::load_rig(path("rig.toml"));
+  EXPECT_TRUE(both) << both.error().message;
+}
+
+TEST_F(Place, RefusesAPointBesideTheBall) {
+  const RigCamera& camera = machine.cameras[0];
+  const SeenLimb limb = limb_of(camera, machine.centre, machine.radius);
+  const double angle = optics::radians(limb.angle);
+  const auto at_limb = [&](double beyond) {
+    char text[200];
+    std::snprintf(text, sizeof text, "%.6f,%.6f=1,2,3",
+                  limb.centre.u + (limb.rx + beyond) * std::cos(angle),
+                  limb.centre.v + (limb.rx + beyond) * std::sin(angle));
+    return std::string(text);
+  };
+  std::vector<std::string> words{"place", "--rig", path("rig.toml")};
+  const auto marks = marked(0);
+  words.insert(words.end(), marks.begin(), marks.end());
+  words.insert(words.end(), {"--point", at_limb(0.3)});
+  EXPECT_NE(run(words), 0);
+  EXPECT_NE(said.find("(1, 2, 3 mm), marked at "), std::string::npos) << said;
+  EXPECT_NE(said.find("lies outside of the ball's outline"), std::string::npos) << said;
+  words.back() = at_limb(-0.3);
+  run(words);
+  EXPECT_EQ(said.find("outside"), std::string::npos) << said;
+}
+
 TEST_F(Place, RefusesMistakesWithTheReason) {
   write("black.png", cv::Mat(2000, 2400, CV_8U, cv::Scalar(0)));
   write("small.png", cv::Mat(200, 300, CV_8U, cv::Scalar(0)));
   write("twice.txt", "3=120,0,0,500,1,0,0,0,1,0\n3=120,0,0,500,1,0,0,0,1,0\n");
   write("none.txt", "# tags\nthree\n");
+  write("bare.toml", rig_text(false));
+  write("lens.yaml",
+        std::string(
+            "image_width: 640\nimage_height: 480\ndistortion_model: plumb_bob\n"
+            "camera_matrix: {rows: 3, cols: 3, data: [900, 0, 319.5, 0, 900, 239.5, 0, 0, 1]}\n"
+            "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"));
+  write("other.toml", std::string("[[camera]]\nname = \"A\"\nwidth = 800\nheight = 600\n"
+                                  "[camera.intrinsics]\nfile = \"lens.yaml\"\n"));
   ASSERT_EQ(place({"-o", path("placed.toml")}), 0) << said;
   const std::string one = point(0, 0), two = point(0, 1);
   const auto with = [](std::vector<std::string> words) {
@@ -241,6 +303,15 @@ TEST_F(Place, RefusesMistakesWithTheReason) {
            Mistake{"no ball",
                    {"--rig", "DIR/placed.toml", "--camera", "A", "--image", "DIR/black.png"},
                    {"black.png"}},
+           Mistake{"a view of an unplaced camera",
+                   {"--rig", "DIR/bare.toml", "--camera", "A", "--view-point", "1,2=1,2,3"},
+                   {"A has no place in the rig", "--point"}},
+           Mistake{"an unplaced camera without a picture",
+                   {"--rig", "DIR/bare.toml", "--camera", "A", "--point", one},
+                   {"--image"}},
+           Mistake{"an unplaced camera with a lens of another size",
+                   {"--rig", "DIR/other.toml", "--camera", "A"},
+                   {"other.toml:", "camera A", "the intrinsics are for 640x480"}},
            Mistake{"no outline", {"--rig", "DIR/placed.toml", "--camera", "A"}, {"--image"}},
            Mistake{"a tag without a picture",
                    with({"--camera", "A", "--tag", "3=120,0,0,500,1,0,0,0,1,0"}),
