@@ -22,6 +22,7 @@ struct SetupCamera {
   std::filesystem::path calibration;  ///< empty: none
   std::optional<optics::Intrinsics> lens;
   std::optional<optics::Pose> pose;
+  double pose_change = 0;          ///< largest angle between its axes and those stated, degrees
   std::optional<double> distance;  ///< camera to the ball's centre, mm
   CameraRecord record;
 

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <utility>
 
+#include "app/cli/setup/stated_rotation.h"
 #include "app/files/plain_names.h"
 #include "app/files/rig/camera_calibration.h"
-#include "proc/optics/rotation.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -73,9 +73,10 @@ CliResult<> read_calibration_of(SetupCamera& camera, const std::string& file) {
 CliResult<> read_pose_of(SetupCamera& camera, const std::string& text) {
   const auto v = numbers("pose", text, 12);
   if (!v) return tl::unexpected(v.error());
-  const auto rotation = optics::checked_rotation({vector(*v, 3), vector(*v, 6), vector(*v, 9)});
-  if (!rotation) return usage_error("--pose of " + camera.name + ": " + rotation.error().message);
-  camera.pose = optics::Pose{*rotation, vector(*v, 0)};
+  const auto stated = stated_rotation({vector(*v, 3), vector(*v, 6), vector(*v, 9)});
+  if (!stated) return usage_error("--pose of " + camera.name + ": " + stated.error().message);
+  camera.pose = optics::Pose{stated->rotation, vector(*v, 0)};
+  camera.pose_change = stated->change;
   return {};
 }
 
@@ -129,7 +130,7 @@ std::vector<Option> setup_options(SetupOptions& o) {
        list_option(o.distances)},
       {"pose", 0, "[NAME=]X,Y,Z,R..",
        "of a camera in the machine: position, mm, and the 3x3\nmatrix by rows, as [camera.pose] "
-       "in a rig; repeatable",
+       "in a rig, with four\ndecimals or more; repeatable",
        list_option(o.poses)},
       {"ball-centre", 0, "X,Y,Z", "in the machine, mm; else by --pose", text_option(o.ball_centre)},
       {"box", 0, "X,Y,Z,X,Y,Z", "the enclosure: its lowest and its highest corner, mm",

@@ -12,6 +12,12 @@ const char* state_of(const Setup& setup, const SetupCamera& camera) {
   return is_placed(setup, camera) ? "" : ", not registered: left out of merged and measured views";
 }
 
+std::string degrees_text(double degrees) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", degrees);
+  return text;
+}
+
 }  // namespace
 
 std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
@@ -24,6 +30,10 @@ std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
                   camera.name.c_str(), limb.centre.u, limb.centre.v, optics::mean_radius(limb),
                   camera.ball.confidence, state_of(setup, camera));
     text += line;
+    if (camera.pose_change > 0) {
+      text += camera.name + ": the matrix of --pose is rounded; its axes were turned by up to " +
+              degrees_text(camera.pose_change) + " deg, to the nearest rotation\n";
+    }
   }
   for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
   const bool is_whole = left_out(setup).empty();
@@ -46,7 +56,8 @@ std::string setup_json(const Setup& setup, const std::filesystem::path& site) {
                                  {"radii", {limb.rx, limb.ry}},
                                  {"angle", limb.angle}}},
                                {"confidence", camera.ball.confidence},
-                               {"registered", camera.is_registered}});
+                               {"registered", camera.is_registered},
+                               {"pose_change", camera.pose_change}});
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

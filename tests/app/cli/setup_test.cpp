@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <sstream>
 
 #include "app/files/rig/rig_file.h"
+#include "proc/align/rotation_fit.h"
+#include "proc/optics/rotation.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/detect/painted_ball.h"
@@ -94,6 +97,44 @@ TEST_F(Setup, WithAPoseItKnowsWhereTheBallIs) {
   EXPECT_TRUE(rig.cameras[0].pose);
 }
 
+/// A camera that is turned in all its axes, with so many decimals.
+std::string pose_text(int decimals) {
+  const optics::Mat3 matrix =
+      optics::rotation({30, 20, 10}) * optics::Mat3{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  std::string text = "10,-300,400";
+  for (const optics::Vec3& row : {matrix.row0, matrix.row1, matrix.row2}) {
+    for (const double value : {row.x, row.y, row.z}) {
+      char number[32];
+      std::snprintf(number, sizeof number, ",%.*f", decimals, value);
+      text += number;
+    }
+  }
+  return text;
+}
+
+TEST_F(Setup, RoundedPosesBecomeRotationsAndSayByHowMuch) {
+  write("a.yaml", kCalibration);
+  const std::vector<std::string> camera{"--camera",     picture(), "--calibration",
+                                        path("a.yaml"), "--force", "--pose"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), camera.begin(), camera.end());
+    return more;
+  };
+  ASSERT_EQ(set_up(with({pose_text(12)})), 0) << said;
+  EXPECT_EQ(said.find("rounded"), std::string::npos) << said;
+  const optics::Mat3 exact = rig().cameras[0].pose->rotation;
+  ASSERT_EQ(set_up(with({pose_text(4)})), 0) << said;
+  EXPECT_NE(said.find("grey: the matrix of --pose is rounded; its axes were turned by up to 0.00"),
+            std::string::npos)
+      << said;
+  expect_runs();
+  EXPECT_LT(optics::degrees(align::angle_between(rig().cameras[0].pose->rotation, exact)), 0.01);
+  ASSERT_EQ(set_up(with({pose_text(4), "--json"})), 0) << said;
+  const double change = parsed(said)["cameras"][0]["pose_change"].get<double>();
+  EXPECT_GT(change, 1e-4);
+  EXPECT_LT(change, 0.009);
+}
+
 /// The two pictures have only the ball in common.
 TEST_F(Setup, LeavesOutWhatItCouldNotRegister) {
   const std::string first = picture();
@@ -158,6 +199,9 @@ TEST_F(Setup, RefusesMistakesInOneLine) {
            {"no such camera", with({"80", "--distance", "thermal=300"}), {"thermal", "grey"}},
            {"box in no axes", with({"80", "--box=0,0,0,1,1,1"}), {"--pose"}},
            {"short pose", with({"80", "--pose", "1,2,3"}), {"3 numbers", "12"}},
+           {"a matrix of two decimals",
+            with({"80", "--pose", pose_text(2), "--calibration", "DIR/a.yaml"}),
+            {"not a rotation", "four decimals"}},
            {"no lens", with({"80", "--pose", "1,2,3,1,0,0,0,0,-1,0,1,0"}), {"--calibration"}},
            {"distance within the ball",
             with({"80", "--distance", "39"}),
