@@ -3,13 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
 #include "proc/align/rotation_fit.h"
-#include "tests/proc/align/register/camera_pair.h"
+#include "tests/support/picture_of_mat.h"
 
 namespace orbwatch::tests {
 namespace {
@@ -18,6 +17,7 @@ using optics::degrees;
 using optics::Vec3;
 
 constexpr int kMoments = 20;
+constexpr Vec3 kPool{0.3, -0.6, -0.7};  // a direction
 
 /// A place in the room, and its light.
 struct Light {
@@ -28,7 +28,7 @@ struct Light {
 /// A melt pool that moves little, and sparks, at each moment.
 std::vector<std::vector<Light>> process_light(std::mt19937_64& random) {
   std::normal_distribution<double> any;
-  const Vec3 pool = normalized(Vec3{0.3, -0.6, -0.7});
+  const Vec3 pool = normalized(kPool);
   std::vector<std::vector<Light>> moments(kMoments);
   for (int m = 0; m < kMoments; ++m) {
     const double phase = 2 * M_PI * m / kMoments;
@@ -62,32 +62,47 @@ std::vector<cv::Mat> seen_by(const optics::BallProjection& ball, int width, int 
   return pictures;
 }
 
-/// The rotations that explain the light of a process to the cameras of a pair.
-Result<std::vector<align::Registration>> by_light(const CameraPair& pair,
+/// Ten radii away from the ball, which is in the middle of the picture.
+optics::RigCamera camera_beside_the_ball(int width, int height, double radius) {
+  optics::RigCamera camera;
+  camera.name = "camera";
+  camera.width = width;
+  camera.height = height;
+  camera.outline = optics::Outline{{width / 2.0, height / 2.0}, radius, radius, 0};
+  camera.distance = 10;
+  return camera;
+}
+
+/// The rotations that explain the light of a process to a colour camera and to a thermal one, whose
+/// registration is `truth`.
+Result<std::vector<align::Registration>> by_light(const optics::Mat3& truth,
                                                   const std::vector<std::vector<Light>>& moments) {
-  const auto known = optics::ball_projection(pair.rig, pair.known).value();
-  const align::SoughtCamera sought = pair.unknown();
-  const auto ball = align::turned(sought, pair.truth, *pair.sought.outline).value();
-  const auto a = seen_by(known, pair.known.width, pair.known.height, CV_8U, moments);
-  const auto b = seen_by(ball, pair.sought.width, pair.sought.height, CV_16U, moments);
-  return align::register_by_light({pictures_of_mats(a), pictures_of_mats(b)}, known, sought);
+  const optics::Rig rig{{{}, 50}, {}, {}};
+  const optics::RigCamera colour = camera_beside_the_ball(800, 600, 200);
+  const align::SoughtCamera thermal{{}, rig, camera_beside_the_ball(320, 256, 100), 0};
+  const auto known = optics::ball_projection(rig, colour).value();
+  const auto ball = align::turned(thermal, truth, *thermal.camera.outline).value();
+  const auto a = seen_by(known, 800, 600, CV_8U, moments);
+  const auto b = seen_by(ball, 320, 256, CV_16U, moments);
+  return align::register_by_light({pictures_of_mats(a), pictures_of_mats(b)}, known, thermal);
 }
 
 TEST(LightRegistration, FindsTheRotationBesideAPoolThatStaysInItsPlace) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     std::mt19937_64 random(seed);
-    const CameraPair pair = camera_pair(seed, true);
-    const auto found = by_light(pair, process_light(random));
+    const optics::Mat3 truth = align::rotation_about({0.3 * static_cast<double>(seed), -0.5, 0.2});
+    const auto found = by_light(truth, process_light(random));
     ASSERT_TRUE(found) << seed << ": " << found.error().message;
-    EXPECT_LT(degrees(align::angle_between(found->front().rotation, pair.truth)), 5) << seed;
+    EXPECT_LT(degrees(align::angle_between(found->front().rotation, truth)), 5) << seed;
   }
 }
 
-TEST(LightRegistration, RefusesAPoolAlone) {
-  std::mt19937_64 random(1);
-  auto moments = process_light(random);
-  for (auto& lights : moments) lights.resize(1);
-  const auto found = by_light(camera_pair(1, true), moments);
+TEST(LightRegistration, IsNotSureByAPoolThatFlickersInOnePlace) {
+  std::vector<std::vector<Light>> moments(40);
+  for (std::size_t m = 0; m < moments.size(); m += 5) {
+    for (const std::size_t lit : {m, m + 1}) moments[lit] = {{normalized(kPool), 0.1}};
+  }
+  const auto found = by_light(align::rotation_about({0.3, -0.5, 0.2}), moments);
   EXPECT_TRUE(!found || found->size() > 1) << "every turn about the pool explains it";
 }
 
