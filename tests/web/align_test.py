@@ -238,6 +238,8 @@ class Register(AlignCase):
         """Finds both balls and the second camera's orientation; the limits are those of the
         methods."""
         self.open("colour")
+        eventually("the header says that it is not aligned", lambda: (
+            "colour is not aligned" in self.browser.text("#notices a[href='#/align']")))
         for name, share in (("colour", 0.0015), ("thermal", 0.01)):
             Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
                    ).select_by_value(name)

@@ -5,12 +5,13 @@ Folders: app/ports/web/page/files app/ports/web/status app/ports/web/history
 """
 
 import json
+import re
 import unittest
 import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import PATIENCE_S, eventually
+from appliance import PATIENCE_S, Appliance, eventually
 from page_case import PageCase
 
 VIEWS = {"panorama", "door", "heat", "process"}
@@ -108,6 +109,10 @@ class Page(PageCase):
                    lambda: any("not acknowledged" in state for state in states()))
         done = self.appliance.status()["web"]["commands_done"]
         self.browser.keep_picture("process")
+        eventually("the header and the title name it", lambda: (
+            "not acknowledged" in self.browser.text("#notices a[href='#/process']")
+            and self.browser.title.startswith("(")
+            and "(" in self.browser.text("nav a[href='#/process']")))
         for button in self.browser.find_elements(By.CSS_SELECTOR, "#process > button"):
             button.click()
         eventually("the command was carried out",
@@ -115,6 +120,13 @@ class Page(PageCase):
         self.assertEqual(self.browser.text("#process [role=alert]"), "")
         self.expect_history_after_a_reload()
         self.expect_no_complaint()
+
+    def test_every_page_has_a_title_and_names_the_recipe(self):
+        self.open()
+        for page, title in (("process", "Process"), ("system", "System"), ("live", "Live")):
+            self.browser.find_element(By.CSS_SELECTOR, f"nav a[href='#/{page}']").click()
+            eventually(title, lambda title=title: f"{title} – orbwatch" in self.browser.title)
+            self.assertIn("Recipe 1", self.browser.text("#notices"))
 
     def test_figures_are_those_of_the_interface(self):
         self.open("system")
@@ -217,6 +229,38 @@ class Page(PageCase):
             self.expect_fits_its_width()
         self.browser.keep_picture("phone")
         self.expect_no_complaint()
+
+
+class UnpluggedCameras(PageCase):
+    """Both cameras are unplugged after some frames, and stay so."""
+
+    @classmethod
+    def make_appliance(cls):
+        appliance = Appliance()
+        site = appliance.folder / "demo.toml"
+        fault = '[[camera.fault]]\nfault = "unplugged"\nfrom = 60\nuntil = 1000000000\n'
+        text, cameras = re.subn(r"\[camera\.simulated\]\n", fault + r"\g<0>",
+                                site.read_text(encoding="utf-8"))
+        assert cameras == 2, "the demo's site file has changed"
+        site.write_text(text, encoding="utf-8")
+        return appliance
+
+    def veils(self, page):
+        """Text over each displayed live picture of a page, and whether it is veiled."""
+        return self.browser.execute_script("""
+            return [...document.querySelectorAll(`#${arguments[0]} .picture:has(.overlay)`)]
+                .filter((picture) => picture.offsetParent !== null)
+                .map((picture) => [picture.querySelector('.overlay').textContent,
+                                   picture.classList.contains('veiled')]);""", page)
+
+    def test_every_live_picture_is_veiled_and_names_its_fault(self):
+        for page, pictures in (("live", len(VIEWS)), ("process", 1), ("align", 1)):
+            self.browser.get(f"{self.appliance.address}#/{page}")
+            with self.subTest(page=page):
+                eventually("all pictures are veiled", lambda page=page, pictures=pictures: (
+                    len(veils := self.veils(page)) >= pictures
+                    and all("not connected" in text and veiled for text, veiled in veils)))
+                self.browser.keep_picture(f"unplugged-{page}")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Align } from "./align/align.js";
 import { describeFigures } from "./appliance/api.js";
+import { Faults } from "./appliance/faults.js";
 import { Stream } from "./appliance/stream.js";
 import { element, setText } from "./elements/elements.js";
 import { Live } from "./live/live.js";
 import { Look } from "./look/look.js";
+import { Notices } from "./notices.js";
 import { Process } from "./process/process.js";
+import { Recipe } from "./process/recipe.js";
 import { admit, askAgain } from "./system/access.js";
 import { Configuration } from "./system/configuration.js";
 import { Fleet } from "./system/fleet.js";
@@ -24,6 +27,7 @@ function say(text, isWrong) {
   condition.classList.toggle("wrong", isWrong);
 }
 
+// Returns the links of the navigation by page.
 function addTabs() {
   const links = new Map();
   for (const { name } of tabs) {
@@ -45,6 +49,7 @@ function addTabs() {
   };
   addEventListener("hashchange", turn);
   turn();
+  return links;
 }
 
 // Retries for ever, because the appliance may start later than the page.
@@ -79,10 +84,11 @@ function makeSystem(section) {
 
 // Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost() and views.
 const tabs = [
-  { name: "live", make: (section) => new Live(section, choose, isAtLeast("operator")) },
+  { name: "live", make: (section) => new Live(section, faults, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
-  { name: "align", make: (section) => new Align(section, figures.cameras) },
-  { name: "process", make: (section) => new Process(section, figures, isAtLeast("integrator"), choose) },
+  { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
+  { name: "process",
+    make: (section) => new Process(section, faults, recipe, figures, isAtLeast("integrator"), choose) },
   { name: "system", make: makeSystem },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
@@ -90,7 +96,9 @@ const tabs = [
 const session = await admit(() => say(texts.connecting, true));
 // True: the user of the page may do what this role may.
 const isAtLeast = (role) => session.roles.includes(role);
-addTabs();
+const links = addTabs();
+const faults = new Faults(), recipe = new Recipe();
+const notices = new Notices(document.getElementById("notices"), recipe, links);
 const figures = await figuresOfAppliance();
 const made = [];
 // The shown tab with pictures of views, if any.
@@ -102,10 +110,14 @@ const stream = new Stream(
     if (message.head.kind === "view") return shown()?.picture(message);
     const status = JSON.parse(new TextDecoder().decode(message.body));
     showCondition(status);
+    faults.status(status);
+    recipe.status(status);
+    notices.status(status);
     for (const tab of made) tab.status?.(status, message.received);
   },
   () => {
     say(texts.connecting, true);
+    faults.lost();
     for (const tab of made) tab.lost?.();
     askAgain();
   },

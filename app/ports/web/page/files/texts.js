@@ -39,6 +39,16 @@ export const texts = {
   account: (user, role) => `${user}, ${role}`,
   connecting: "No connection to the appliance: trying again",
   silent: "The pipeline does not report",
+  notices: {
+    alarms: (count, worst, state) => (count === 1 ? `Alarm ${worst}: ${state}`
+      : `${count} alarms; the worst, ${worst}: ${state}`),
+    notAligned: (camera, percent) => `${camera} is not aligned: ${percent?.toFixed(1)} % off`,
+    notRegistered: (camera) => `${camera} is not registered`,
+    moved: (camera) => `${camera} has moved since its alignment`,
+    recipe: ({ number, name }) => (number === 0 ? "" : `Recipe ${number}${name ? `: ${name}` : ""}`),
+    title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
+    badge: (page, alarms) => (alarms > 0 ? `${page} (${alarms})` : page),
+  },
   chooseViews: "Views",
   noPicture: "no picture yet",
   age: (ms) => (ms < 10000 ? `${Math.round(ms / 10) * 10} ms old` : `${Math.round(ms / 1000)} s old`),

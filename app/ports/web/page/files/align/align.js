@@ -35,8 +35,8 @@ export class Align {
   #isRunning = false;
 
   // `descriptions` of a camera's figures.
-  constructor(root, descriptions) {
-    this.root = root;
+  constructor(root, faults, descriptions) {
+    Object.assign(this, { root, faults });
     this.states = descriptions.proposal.codes;
     this.choice = element("select", { name: "camera" });
     this.choice.addEventListener("change", () => this.#choose());
@@ -63,6 +63,7 @@ export class Align {
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
+    setInterval(() => this.editor.freshness.tick(this.faults.ofCamera(this.choice.value)), 250);
   }
 
   status({ cameras }, now) {
@@ -130,14 +131,16 @@ export class Align {
     if (!this.#camera?.is_watched) return;
     const { name } = this.#camera;
     const path = `api/v1/alignment/ball.jpg?camera=${encodeURIComponent(name)}`;
+    const asked = performance.now();
     const picture = await createImageBitmap(await (await fetched(path)).blob());
-    if (this.#camera.name === name) this.editor.showPicture(picture);
+    if (this.#camera.name === name) this.editor.showPicture(picture, asked);
     picture.close();
   }
 
   #choose() {
     setText(this.refused, "");
     this.editor.forget();
+    this.editor.freshness.forget();
     if (this.#camera) this.#show(this.#camera);
   }
 

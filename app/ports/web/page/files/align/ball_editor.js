@@ -2,6 +2,7 @@
 // A camera's picture with the ball's outline over it as an ellipse, moved by its handles with pointer, touch
 // or keys, and the scene's edges by the alignment.
 import { element } from "../elements/elements.js";
+import { Freshness } from "../elements/freshness.js";
 import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 
@@ -9,6 +10,7 @@ const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
 const kHandlePx = 11, kMarkPx = 6;  // screen px
+const kStaleMs = 5000;  // a picture in full resolution comes every few seconds over a slow link
 
 // Unit vectors along the axes.
 function axes({ angle }) {
@@ -66,8 +68,10 @@ export class BallEditor {
       if (!isOther) onPick(this.pixelAt(event));
     });
     this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
-    this.root = element("figure", { className: "ball" },
-      element("div", { className: "picture" }, this.canvas, this.svg));
+    const seen = element("div", { className: "picture" }, this.canvas, this.svg);
+    this.freshness = new Freshness(seen, kStaleMs);
+    this.root = element("figure", { className: "ball" }, seen,
+      element("figcaption", {}, this.freshness.age));
     new ResizeObserver(() => this.#draw()).observe(this.svg);
   }
 
@@ -165,7 +169,9 @@ export class BallEditor {
     this.#refresh();
   }
 
-  showPicture(picture) {
+  // It was taken after it had been asked for, at `asked`, which is of performance.now().
+  showPicture(picture, asked) {
+    this.freshness.drew(0, asked);
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
   }

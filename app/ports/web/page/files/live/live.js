@@ -7,13 +7,11 @@ import { Tile } from "./tile.js";
 
 export class Live {
   #chosen = null; // names; null before the first status
-  #faults = "";
   #isStale = true; // data of the views may be older than a restart
 
   // `mayCommand`: the user may turn, mix and colour views.
-  constructor(root, onChoice, mayCommand) {
-    this.root = root;
-    this.onChoice = onChoice;
+  constructor(root, faults, onChoice, mayCommand) {
+    Object.assign(this, { root, faults, onChoice });
     this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
     const tiles = element("div", { id: "tiles" });
     this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand));
@@ -22,8 +20,6 @@ export class Live {
   }
 
   status(status) {
-    const faults = status.cameras.filter((c) => c.fault !== 0);
-    this.#faults = faults.map((c) => `${c.name}: ${c.fault_text}`).join(". ");
     if (!this.#chosen) this.#begin(status.views);
     if (this.#isStale) this.#describe();
   }
@@ -77,6 +73,6 @@ export class Live {
     this.onChoice();
   }
   #tick() {
-    for (const [name, is] of this.#chosen ?? []) if (is) this.tiles.get(name).tick(this.#faults);
+    for (const [name, is] of this.#chosen ?? []) if (is) this.tiles.get(name).tick(this.faults.ofView(name));
   }
 }

@@ -2,6 +2,7 @@
 // One view: its picture with its age, values at the pointer, direction, weights and colours of its cameras.
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
+import { Freshness } from "../elements/freshness.js";
 import { texts } from "../texts.js";
 import { Legend } from "./legend.js";
 import { Mixer } from "./mixer.js";
@@ -9,10 +10,8 @@ import { PointedView } from "./pointed_view.js";
 import { Pointer } from "./pointer.js";
 import { saveSnapshot } from "./snapshot.js";
 
-const kStaleMs = 2000;
-
 export class Tile {
-  #latest = null; // {age_ms, received} of the displayed picture
+  #hasPicture = false;
   #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
 
   constructor(name, mayCommand) {
@@ -22,8 +21,6 @@ export class Tile {
       "aria-label": texts.pictureOf(name) });
     this.canvas.width = 320;
     this.canvas.height = 180;
-    this.overlay = element("p", { className: "overlay" });
-    this.age = element("span", { className: "age" }, texts.noPicture);
     this.pointer = new Pointer(name, this.canvas);
     this.controls = element("div", { className: "controls" });
     const said = element("p", { className: "wrong", role: "alert" });
@@ -33,12 +30,13 @@ export class Tile {
     full.addEventListener("click", () => this.root.requestFullscreen());
     const snapshot = element("button", { type: "button" }, texts.snapshot);
     snapshot.addEventListener("click", () => {
-      if (this.#latest) saveSnapshot(name, this.canvas, this.legend?.shown ?? []);
+      if (this.#hasPicture) saveSnapshot(name, this.canvas, this.legend?.shown ?? []);
     });
-    this.root = element("figure", {},
-      element("div", { className: "picture" }, this.canvas, this.pointer.mark, this.overlay),
+    const seen = element("div", { className: "picture" }, this.canvas, this.pointer.mark);
+    this.freshness = new Freshness(seen);
+    this.root = element("figure", {}, seen,
       this.pointer.reading, this.pointer.spoken, this.controls, said,
-      element("figcaption", {}, element("strong", {}, name), this.age, snapshot, full));
+      element("figcaption", {}, element("strong", {}, name), this.freshness.age, snapshot, full));
   }
 
   // The view's entry and the colour maps of /api/v1/views.
@@ -61,19 +59,16 @@ export class Tile {
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = head.number;
     this.canvas.dataset.stamp = head.stamp;
-    this.#latest = { age_ms: head.age_ms, received };
+    this.#hasPicture = true;
+    this.freshness.drew(head.age_ms, received);
     this.pointer.follow();
     this.pointed.follow(head.aim);
     this.mixer?.follow(head.aim.weights);
     this.legend?.follow(head.aim.colours);
   }
 
+  // `faults`: of its cameras.
   tick(faults) {
-    if (!this.#latest) return setText(this.overlay, faults);
-    const age = this.#latest.age_ms + performance.now() - this.#latest.received;
-    setText(this.age, texts.age(age));
-    this.age.classList.toggle("wrong", age > kStaleMs);
-    const old = age > kStaleMs ? texts.stale(age) : "";
-    setText(this.overlay, [old, faults].filter(Boolean).join(". "));
+    this.freshness.tick(faults);
   }
 }

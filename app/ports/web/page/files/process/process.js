@@ -9,7 +9,6 @@ import { Trial } from "../system/trial.js";
 import { texts } from "../texts.js";
 import { AlarmHistory } from "./alarm_history.js";
 import { LimitLines } from "./limit_lines.js";
-import { Recipe } from "./recipe.js";
 import { RegionEditor } from "./region_editor.js";
 
 const kFirstSignal = "hot_spot_peak_temperature";
@@ -118,13 +117,12 @@ class Region {
 
 export class Process {
   // `mayChange`: the user may change limits and regions. `onChoice()`: another view is needed.
-  constructor(root, figures, mayChange, onChoice) {
-    this.root = root;
-    this.recipe = new Recipe();
+  constructor(root, faults, recipe, figures, mayChange, onChoice) {
+    Object.assign(this, { root, recipe });
     this.alarms = new Alarms(root);
     this.none = element("p", {}, texts.noRegions);
     const list = element("div");
-    this.editor = new RegionEditor(this.recipe, mayChange, onChoice);
+    this.editor = new RegionEditor(this.recipe, faults, mayChange, onChoice);
     this.happened = new AlarmHistory();
     root.append(this.happened.root, this.editor.root, ...(mayChange ? [this.#makeTrial()] : []),
       this.none, list);
@@ -155,7 +153,6 @@ export class Process {
   }
 
   status(status, now) {
-    this.recipe.status(status);
     this.alarms.show(status.alarms ?? []);
     if (this.isShown) this.happened.refresh(status.web.alarm_events);
     const regions = status.regions ?? [];

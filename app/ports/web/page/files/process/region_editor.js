@@ -3,6 +3,7 @@
 // corner by corner, with pointer, touch or keys.
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { commandButton, element, field, setText } from "../elements/elements.js";
+import { Freshness } from "../elements/freshness.js";
 import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 
@@ -26,13 +27,14 @@ export class RegionEditor {
   #handles = [];   // handles of the corners
   #middles = [];   // handles of the edges, each after its corner
   #corner = 0;     // index of the last touched corner
-  #pictures = new NewestPicture((picture, { head }) => {
+  #pictures = new NewestPicture((picture, { head, received }) => {
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = head.number;
+    this.freshness.drew(head.age_ms, received);
   });
 
   // `onView()`: another view is displayed.
-  constructor(recipe, mayChange, onView) {
+  constructor(recipe, faults, mayChange, onView) {
     Object.assign(this, { recipe, mayChange, onView });
     this.view = element("select", { name: "view" });
     this.view.addEventListener("change", () => this.#chooseView());
@@ -52,11 +54,14 @@ export class RegionEditor {
     this.middleGroup = drawn("g");
     this.svg.append(this.lines, this.body, this.middleGroup);
     this.svg.addEventListener("pointerdown", (event) => this.#span(event));
+    const seen = element("div", { className: "picture" }, this.canvas, this.svg);
+    this.freshness = new Freshness(seen);
+    setInterval(() => this.freshness.tick(faults.ofView(this.view.value)), 250);
     this.root = element("section", { id: "regions" }, element("h3", {}, texts.process.regions),
       element("p", {}, element("label", {}, texts.process.view, " ", this.view), " ",
         ...(mayChange ? [element("label", {}, texts.process.region, " ", this.choice), " ",
           this.cornerRemoval, " ", this.removal] : [])),
-      element("figure", { className: "ball" }, element("div", { className: "picture" }, this.canvas, this.svg)),
+      element("figure", { className: "ball" }, seen, element("figcaption", {}, this.freshness.age)),
       ...(mayChange ? [this.said, element("p", {}, texts.process.help), this.#makeForm()] : []), this.refused);
     recipe.addEventListener("change", () => this.#refresh());
     new ResizeObserver(() => this.#draw()).observe(this.svg);
@@ -82,6 +87,7 @@ export class RegionEditor {
   }
 
   #chooseView() {
+    this.freshness.forget();
     const view = this.recipe.stated.views.find(({ name }) => name === this.view.value);
     if (view) {
       this.canvas.width = view.width;
