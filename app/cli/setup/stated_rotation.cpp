@@ -37,16 +37,17 @@ double turn(const Vec3& stated, const Vec3& axis) {
 
 Result<StatedRotation> stated_rotation(const Mat3& matrix) {
   if (optics::checked_rotation(matrix)) return StatedRotation{matrix, 0};
-  // Nine elements, each rounded by up to 0.00005: the rotation that was rounded is not further
-  // away, nor is the nearest one.
-  constexpr double kRounding = 3 * 0.00005;
+  // Nine elements that are rounded to four decimals are up to 0.00015 off, cut ones 0.0003.
+  constexpr double kFarthest = 0.001;
   const Mat3 nearest = nearest_rotation(matrix);
   const double off = distance(matrix, nearest);
-  if (!(off <= kRounding * (1 + 1e-9))) {
+  // False for NaN.
+  if (!(off <= kFarthest)) {
     std::ostringstream text;
     text.precision(2);
-    text << "the matrix is not a rotation: the nearest one differs by " << off
-         << ", four decimals explain 0.00015; its rows must be unit vectors, perpendicular and "
+    text << "the matrix is not a rotation: the nearest one differs by " << off << ", at most "
+         << kFarthest
+         << " is allowed; its rows must be unit vectors, perpendicular and "
             "right-handed, with four decimals or more";
     return fail(text.str());
   }

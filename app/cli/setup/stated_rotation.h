@@ -13,7 +13,7 @@ struct StatedRotation {
 };
 
 /// `matrix` as it is if it is a rotation to 1e-6, or else the nearest rotation. Reentrant. Error:
-/// further from it than by four decimals.
+/// further from it than four decimals explain.
 Result<StatedRotation> stated_rotation(const optics::Mat3& matrix);
 
 }  // namespace orbwatch::app::cli

@@ -52,6 +52,15 @@ TEST(StatedRotation, KeepsARotationAsItIs) {
   EXPECT_EQ(stated->change, 0);
 }
 
+TEST(StatedRotation, AcceptsDecimalsThatAreCutOff) {
+  // Cut towards zero, all elements lose up to 1e-4.
+  const Mat3 cut{{0.9986, -0.0523, 0}, {0.0523, 0.9986, 0}, {0, 0, 1}};  // 3 degrees
+  const auto stated = stated_rotation(cut);
+  ASSERT_TRUE(stated) << stated.error().message;
+  EXPECT_LT(optics::degrees(align::angle_between(stated->rotation, optics::rotation({-3, 0, 0}))),
+            0.01);
+}
+
 TEST(StatedRotation, ReportsTheTurnOfTheAxisThatChangedMost) {
   // The first two axes lean towards each other by 1e-4 rad in all: the nearest rotation shares it.
   const auto stated = stated_rotation({{1, 1e-4, 0}, {0, 1, 0}, {0, 0, 1}});
@@ -63,7 +72,7 @@ TEST(StatedRotation, RefusesWhatRoundingDoesNotExplain) {
   std::mt19937_64 random(3);
   for (const Mat3& matrix :
        {rounded(random_rotation(random), 2), Mat3{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
-        Mat3{{1.001, 0, 0}, {0, 1, 0}, {0, 0, 1}}, Mat3{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}) {
+        Mat3{{1.002, 0, 0}, {0, 1, 0}, {0, 0, 1}}, Mat3{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}) {
     const auto stated = stated_rotation(matrix);
     ASSERT_FALSE(stated);
     EXPECT_NE(stated.error().message.find("four decimals"), std::string::npos);
