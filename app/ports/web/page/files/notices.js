@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header of all pages: the recipe, and what needs a person: standing alarms, and cameras that are not aligned.
+// Header of all pages: the recipe, and what needs a person: alarms that stand or are not acknowledged, and cameras
+// that are not aligned.
 import { element, setText } from "./elements/elements.js";
 import { texts } from "./texts.js";
 
 // Numbers of proc/signals/alarm.h and app/model/status/watch_status.h, which stay the same.
-const kStandingStates = [1, 2, 4, 5];
+const kNormal = 0, kSuppressed = 6;
 const kAlarmLevels = [1, 4, 5], kWarningLevels = [2, 3];
 const kMoved = [2, 3], kNotRegistered = 4;
 const kNotAligned = 2;
@@ -14,9 +15,9 @@ function severity({ level, announced }) {
   return isAmong(kAlarmLevels) ? 2 : isAmong(kWarningLevels) ? 1 : 0;
 }
 
-// Alarms that stand, the worst first.
-export function standingAlarms(alarms) {
-  return alarms.filter(({ state }) => kStandingStates.includes(state))
+// Alarms that stand or are not acknowledged, the worst first.
+function raisedAlarms(alarms) {
+  return alarms.filter(({ state }) => state !== kNormal && state !== kSuppressed)
     .sort((one, other) => severity(other) - severity(one));
 }
 
@@ -36,7 +37,7 @@ function show(link, text) {
 }
 
 export class Notices {
-  #count = 0; // alarms that stand
+  #count = 0; // raised alarms
 
   // `links`: those of the navigation by page.
   constructor(root, recipe, links) {
@@ -51,12 +52,12 @@ export class Notices {
   }
 
   status({ alarms = [], cameras }) {
-    const standing = standingAlarms(alarms);
-    show(this.alarms, standing.length === 0 ? ""
-      : texts.notices.alarms(standing.length, standing[0].name, standing[0].state_text));
+    const raised = raisedAlarms(alarms);
+    show(this.alarms, raised.length === 0 ? ""
+      : texts.notices.alarms(raised.length, raised[0].name, raised[0].state_text));
     show(this.alignment, cameras.map(alignmentNotice).filter(Boolean).join(". "));
-    if (standing.length === this.#count) return;
-    this.#count = standing.length;
+    if (raised.length === this.#count) return;
+    this.#count = raised.length;
     this.#entitle();
   }
 
