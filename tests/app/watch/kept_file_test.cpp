@@ -20,7 +20,7 @@ TEST(KeptFile, IsNamedAfterTheOutline) {
 }
 
 TEST(KeptFile, ReplacesThoseOfItsCameraOnly) {
-  const tests::TemporaryFolder folder;
+  const orbwatch::tests::TemporaryFolder folder;
   const cv::Mat pixels(4, 4, CV_8U, cv::Scalar(7));
   const optics::Outline before{{40, 30}, 12, 12, 0}, after{{41, 30}, 12, 12, 0};
   const auto file = [&](const std::string& camera, const optics::Outline& outline) {
