@@ -77,21 +77,32 @@ Result<> set_plugins(const Qos& qos) {
   });
 }
 
+/// Follows links to the folder once: files that are replaced by another link are read as one set.
+EnclaveFiles files_behind_links(const fs::path& folder) {
+  std::error_code error;
+  const fs::path real = fs::canonical(folder, error);
+  return EnclaveFiles(error ? folder : real);  // the check names what is missing
+}
+
+Result<> check_files(const EnclaveFiles& files, int domain, Dates dates) {
+  return check_enclave(files, domain, now_for(dates)).map_error([](const Error& error) {
+    return Error{"DDS security: " + error.message};
+  });
+}
+
 }  // namespace
 
 Result<> check_security(const SecuritySettings& settings, int domain, Dates dates) {
-  return check_enclave(EnclaveFiles(settings.folder), domain, now_for(dates))
-      .map_error([](const Error& error) { return Error{"DDS security: " + error.message}; });
+  return check_files(files_behind_links(settings.folder), domain, dates);
 }
 
 Result<Qos> security_qos(const SecuritySettings& settings, int domain) {
-  if (const auto checked = check_security(settings, domain, Dates::Checked); !checked) {
+  const EnclaveFiles files = files_behind_links(settings.folder);
+  if (const auto checked = check_files(files, domain, Dates::Checked); !checked) {
     return tl::unexpected(checked.error());
   }
   Qos qos(dds_create_qos());
   if (const auto plugins = set_plugins(qos); !plugins) return tl::unexpected(plugins.error());
-  std::error_code error;
-  const EnclaveFiles files(fs::absolute(settings.folder, error));
   set_file(qos, "auth.identity_ca", files.identity_ca);
   set_file(qos, "auth.identity_certificate", files.certificate);
   set_file(qos, "auth.private_key", files.key);

@@ -20,7 +20,7 @@ void visit(Visitor& v, SecuritySettings& security) {
              "Folder with certificate, key and permissions, made by `orbwatch dds-keys`");
 }
 
-/// Checks the files like check_enclave().
+/// Checks the files like check_enclave(), behind links to the folder as they are at this moment.
 Result<> check_security(const SecuritySettings& settings, int domain, Dates dates);
 
 /// QoS that makes a participant of the domain a secure one, by Cyclone DDS' own plugins. Reads the
