@@ -292,9 +292,13 @@ class PlacementCommands : public AlignmentCommands {
     const auto scaled = [](double mm) { return static_cast<std::int32_t>(std::lround(mm * 1000)); };
     return {0, scaled(p.x), scaled(p.y), scaled(p.z)};
   }
-  /// Moves the lamp there and marks it; returns whether the mark was accepted.
+  /// Moves the lamp there and marks it; again where a busy machine delivered no picture in time.
   bool mark(Subprocess& daemon, const optics::Vec3& point) {
     show_lamp(point);
+    return eventually(daemon, [&] { return is_marked(daemon, point); });
+  }
+  /// Marks the lamp once; returns whether it became a point.
+  bool is_marked(Subprocess& daemon, const optics::Vec3& point) {
     const auto frames = read("camera_0_frames");
     const auto points = read("camera_0_marked_points");
     return eventually(daemon, [&] { return read("camera_0_frames") > frames + 2; }) &&
