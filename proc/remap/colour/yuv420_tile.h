@@ -20,7 +20,7 @@ struct Yuv420Planes {
     std::uint8_t* first;
     std::ptrdiff_t stride;
 
-    std::uint8_t* row(int y) const { return first + y * stride; }
+    std::uint8_t* row(int number) const { return first + number * stride; }
   };
   Plane y, u, v;
 };

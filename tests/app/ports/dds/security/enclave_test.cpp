@@ -27,11 +27,16 @@ using tests::this_second;
 
 constexpr int kDomain = 4;
 
+/// Messages name the files behind links.
+EnclaveFiles files_of(const fs::path& keystore, const std::string& name) {
+  return EnclaveFiles(fs::canonical(enclave_folder(keystore, name)));
+}
+
 class EnclaveTest : public testing::Test {
  protected:
   EnclaveTest()
       : keystore_(make_keystore(keystore_request(folder_ / "keys"))),
-        files_(enclave_folder(keystore_, "subscriber")) {}
+        files_(files_of(keystore_, "subscriber")) {}
 
   /// Expects one line with the file and the reason, also when joining.
   void expect_refused(const fs::path& file, const std::string& reason, int domain = kDomain) const {
@@ -139,8 +144,7 @@ TEST_F(EnclaveTest, WhatHasExpiredIsNamed) {
   auto old = keystore_request(folder_ / "old");
   old.days = 10;
   make_keystore(old, this_second() - days(20));
-  const EnclaveFiles expired(enclave_folder(folder_ / "old", "subscriber"));
-  files_ = expired;
+  files_ = files_of(folder_ / "old", "subscriber");
   expect_refused(files_.identity_ca, "expired on 2");
 
   old.folder = folder_ / "long";
@@ -149,7 +153,7 @@ TEST_F(EnclaveTest, WhatHasExpiredIsNamed) {
   old.subscribers = {"short"};
   old.days = 10;
   make_keystore(old, this_second() - days(20));
-  files_ = EnclaveFiles(enclave_folder(keystore, "short"));
+  files_ = files_of(keystore, "short");
   expect_refused(files_.certificate, "expired on 2");
 }
 
