@@ -17,7 +17,7 @@
 /// since it holds a picture. Its size is bounded by that of the camera's picture.
 namespace orbwatch::app {
 
-/// What a zero is valid for.
+/// Camera and alignment that a zero is valid for.
 struct ZeroSubject {
   std::uint32_t alignment = 0;  ///< see alignment_checksum()
   int width = 0;                ///< px

@@ -33,7 +33,7 @@ class Attempt {
   Result<CameraRegistration> by_gradients() const {
     return by_gradients(sought_.camera.registration);
   }
-  /// Of the rotations that explain the light, the one on which edges agree, too.
+  /// Refines each rotation that explains the light; the one on which edges agree is right.
   Result<CameraRegistration> by_light() const {
     progress_("matching the process' light");
     const auto rough = register_by_light(pictures_, ball_, sought_);

@@ -31,7 +31,7 @@ using RegistrationProgress = std::function<void(const std::string&)>;
 /// Finds the sought camera's rotation by a method or the best sequence of methods. `pictures`: of
 /// fixed cameras, one each at least; methods other than light use the first ones. Light alone is
 /// accurate to some degrees only, so that Light, too, is refined by gradients. Reentrant. Error:
-/// those of the last method tried.
+/// those of the methods tried; light that several rotations explain, whose edges agree, too.
 Result<CameraRegistration> register_camera(const SimultaneousPictures& pictures,
                                            const optics::BallProjection& reference,
                                            const SoughtCamera& sought, RegistrationMethod method,

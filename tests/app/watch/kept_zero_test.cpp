@@ -142,7 +142,7 @@ TEST_F(KeptZeroTest, RefusesHostileContentWithARightChecksum) {
   expect_refused(sealed(content_.substr(0, kPixelsAt)), "picture is damaged");
 }
 
-/// What zlib would inflate to more than a picture.
+/// Content that zlib would inflate to more than a picture.
 TEST_F(KeptZeroTest, RefusesAPictureThatInflatesToMore) {
   const std::string zeros(std::size_t{1} << 20, '\0');
   uLongf size = compressBound(zeros.size());

@@ -42,7 +42,7 @@ std::vector<std::vector<Light>> process_light(std::mt19937_64& random) {
   return moments;
 }
 
-/// What a camera sees of it.
+/// Pictures that a camera takes of the light.
 std::vector<cv::Mat> seen_by(const optics::BallProjection& ball, int width, int height, int type,
                              const std::vector<std::vector<Light>>& moments) {
   std::vector<cv::Mat> pictures;
