@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """run_changed.py [BASE]: runs the tests for all changes since BASE (HEAD: uncommitted changes), for
 `tests/run --changed`.
-run_changed.py --passed PRESET: records that the tests of all programs of PRESET, as they are built now,
-passed, except for the long gates of alignment.
+run_changed.py --passed: records that the release tests of all programs, as they are built now, passed, except
+for the long gates of alignment.
 
 Builds the release preset and runs the test programs that differ from those whose tests passed here
 before, and those of the changed folders. A program whose tests start `orbwatchd` or `orbwatch` differs by
@@ -189,9 +189,9 @@ def of_alignment(base):
 
 
 def main():
-    if sys.argv[1:2] == ["--passed"] and len(sys.argv) == 3:
-        preset = Preset(sys.argv[2], Stages())
-        preset.keep(preset.tests().keys() - {GATES})
+    if sys.argv[1:] == ["--passed"]:
+        release = Preset("release", Stages())
+        release.keep(release.tests().keys() - {GATES})
         return 0
     if sys.argv[1:2] == ["--help"] or len(sys.argv) > 2:
         print(__doc__)

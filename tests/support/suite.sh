@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2154
-# Sourced by the scripts that run tests, after stages.sh: builds a preset and runs its tests, case by case.
+# Sourced by tests/run, after stages.sh and drawn.sh: builds a preset and runs its tests, case by case.
 # SPDX-License-Identifier: Apache-2.0
 
 # CTest's slots, three per core; tests/CMakeLists.txt sets the number that a test uses.
@@ -8,17 +8,42 @@ places=$((3 * $(nproc)))
 # Prefix of the compile commands, such as nice.
 gently=()
 
-# Variables for CMake, such as -DORBWATCH_TESTS_OF_PROC=OFF.
-variables=()
-
 # build PRESET [TARGET...]: configures and compiles it.
 build() {
+  stage "$1-configure" cmake --preset "$1" && compile "$@"
+}
+compile() {
   local preset=$1 begin=$logs/$1-build.begin
   shift
-  stage "$preset-configure" cmake --preset "$preset" "${variables[@]}" || return
   touch "$begin"
   stage "$preset-build" "${gently[@]}" cmake --build --preset "$preset" ${1:+--target "$@"} || return
   tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
+}
+
+# choose_programs PRESET: writes the test programs and fuzz targets of a configured preset that are due, and
+# the others, to files `due` and `not_due` in its folder.
+choose_programs() {
+  local folder=build/$1 fate name
+  tests/support/due_programs.py "$folder" "${ORBWATCH_SINCE:-$(last_whole)}" >"$folder/programs" || return
+  while read -r fate name; do
+    if ((whole)) || [[ $fate == due ]] || draws "$1 $name"; then
+      echo "$name" >&3
+    else
+      echo "$name" >&4
+    fi
+  done <"$folder/programs" 3>"$folder/due" 4>"$folder/not_due"
+}
+
+# build_due PRESET: configures it and compiles the programs that are due.
+build_due() {
+  local preset=$1 targets=()
+  stage "$preset-configure" cmake --preset "$preset" && stage "$preset-due" choose_programs "$preset" || return
+  if [[ -s build/$preset/not_due ]]; then
+    mapfile -t targets <"build/$preset/due"
+    left_out "$(wc -l <"build/$preset/not_due") programs under $preset" "tests/run --whole"
+    ((${#targets[@]})) || return 0
+  fi
+  compile "$preset" "${targets[@]}"
 }
 
 # Options that keep the complete output of programs, for count_cases.py.
@@ -61,6 +86,15 @@ cases() {
   shift
   # Sanitizers need a fixed address layout.
   run_cases "$preset-tests" "$folder" setarch -R ctest --preset "$preset" -j "$places" "$@" \
-    "${junit[@]}" "$folder/cases.xml" &&
-    tests/support/run_changed.py --passed "$preset"
+    "${junit[@]}" "$folder/cases.xml"
+}
+
+# cases_due PRESET: runs the tests of the programs that build_due has built.
+cases_due() {
+  local due
+  if [[ ! -s build/$1/not_due ]]; then
+    cases "$1"
+  elif due=$(grep -v '^fuzz_' "build/$1/due"); then
+    cases "$1" --tests-regex "^(${due//$'\n'/|})\\."
+  fi
 }
