@@ -34,9 +34,9 @@ void EchoFilter::expect(std::span<const std::uint8_t> answer, bool is_request, h
 }
 
 std::span<const std::uint8_t> EchoFilter::strip(std::span<const std::uint8_t> bytes,
-                                                hal::TimePoint now) {
+                                                hal::TimePoint silent_until) {
   passed_ = std::exchange(late_, {});
-  if (now >= deadline_) end_wait();
+  if (silent_until >= deadline_) end_wait();
   std::ranges::copy(std::exchange(late_, {}), std::back_inserter(passed_));
   for (const std::uint8_t byte : bytes) add(byte);
   return passed_;

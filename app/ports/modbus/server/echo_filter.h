@@ -28,16 +28,18 @@ class EchoFilter {
   /// An empty answer is ignored.
   void expect(std::span<const std::uint8_t> answer, bool is_request, hal::TimePoint now);
 
-  /// Returns `bytes`, received at `now`, without echoes. Bytes that may begin an echo are held back
-  /// until further bytes decide. The result is valid until the next call.
-  std::span<const std::uint8_t> strip(std::span<const std::uint8_t> bytes, hal::TimePoint now);
+  /// Returns `bytes` without echoes. The line was silent until `silent_until`: bytes that are read
+  /// late because the computer is busy count as arrived then. Bytes that may begin an echo are held
+  /// back until further bytes decide. The result is valid until the next call.
+  std::span<const std::uint8_t> strip(std::span<const std::uint8_t> bytes,
+                                      hal::TimePoint silent_until);
 
   /// Reports a received request: echoes of earlier answers are no longer expected.
   void end_wait();
 
-  /// Returns whether bytes are held back, until deadline().
-  bool is_holding() const { return !held_.empty() || !late_.empty(); }
-  /// Time at which an incomplete echo is given up: strip() of no bytes then returns the held bytes.
+  /// Returns whether an echo is expected, or bytes are held back, until deadline().
+  bool is_waiting() const { return !answers_.empty() || !late_.empty(); }
+  /// Time at which echoes are given up: strip() of no bytes then returns the held bytes.
   hal::TimePoint deadline() const { return deadline_; }
 
   /// Number of echoes removed.

@@ -62,11 +62,10 @@ struct RtuServer::Reception {
   std::uint64_t other_units = 0;
   std::uint64_t dropped_echoes = 0;
 
-  /// Time at which waiting bytes are given up.
+  /// Time at which waiting bytes and expected echoes are given up.
   hal::TimePoint deadline() const {
-    const auto end = last + RtuFramer::kMaxGap;
-    if (framer.is_waiting()) return echoes.is_holding() ? std::min(end, echoes.deadline()) : end;
-    return echoes.is_holding() ? echoes.deadline() : hal::TimePoint::max();
+    const auto end = framer.is_waiting() ? last + RtuFramer::kMaxGap : hal::TimePoint::max();
+    return echoes.is_waiting() ? std::min(end, echoes.deadline()) : end;
   }
 };
 
@@ -77,10 +76,11 @@ Result<> RtuServer::serve_line() {
   std::array<std::uint8_t, RtuFramer::kLongestFrame> bytes;
   for (;;) {
     std::array<pollfd, 2> files{{{transport_->descriptor(), POLLIN, 0}, {stop_.get(), POLLIN, 0}}};
+    const auto begin = hal::Clock::now();
     const int ready = ::poll(files.data(), files.size(), hal::poll_timeout(line.deadline()));
     if (ready < 0) continue;  // interrupted
     if (ready == 0) {
-      receive(line, {});
+      receive(line, {}, hal::Clock::now());
       continue;
     }
     if (files[1].revents != 0) return {};
@@ -92,12 +92,13 @@ Result<> RtuServer::serve_line() {
                   " is lost: " + (count == 0 ? "hung up" : std::system_category().message(errno)) +
                   "; reopening it");
     }
-    receive(line, std::span(bytes).first(static_cast<std::size_t>(count)));
+    receive(line, std::span(bytes).first(static_cast<std::size_t>(count)), begin);
   }
 }
 
-/// Receives bytes; none: the line is silent.
-void RtuServer::receive(Reception& line, std::span<const std::uint8_t> bytes) {
+/// Receives bytes, none of which had arrived at `silent_until`.
+void RtuServer::receive(Reception& line, std::span<const std::uint8_t> bytes,
+                        hal::TimePoint silent_until) {
   const auto now = hal::Clock::now();
   auto silence = now - line.last;
   if (!bytes.empty()) line.last = now;
@@ -109,7 +110,7 @@ void RtuServer::receive(Reception& line, std::span<const std::uint8_t> bytes) {
     }
     return true;
   };
-  auto received = line.echoes.strip(bytes, now);
+  auto received = line.echoes.strip(bytes, silent_until);
   while (!received.empty()) {
     const auto part = received.first(std::min(received.size(), RtuFramer::kLongestFrame));
     line.framer.push(part, std::exchange(silence, hal::Clock::duration(0)));

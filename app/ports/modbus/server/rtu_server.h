@@ -57,7 +57,7 @@ class RtuServer {
 
   bool is_stopped_within(hal::Clock::duration time) const;
   Result<> serve_line();
-  void receive(Reception& line, std::span<const std::uint8_t> bytes);
+  void receive(Reception& line, std::span<const std::uint8_t> bytes, hal::TimePoint silent_until);
   bool answer_frame(EchoFilter& echoes, std::span<const std::uint8_t> frame);
   void count(Reception& line);
 

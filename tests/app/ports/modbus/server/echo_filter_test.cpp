@@ -91,6 +91,15 @@ TEST_F(EchoFilterTest, ARepetitionThatComesLaterPasses) {
   EXPECT_EQ(filter_.echoes(), 0U);
 }
 
+TEST_F(EchoFilterTest, IsExpectedUntilTheLineWasSilentAtItsDeadline) {
+  EXPECT_FALSE(filter_.is_waiting());
+  answer_write();
+  EXPECT_TRUE(filter_.is_waiting());
+  now_ = filter_.deadline();
+  EXPECT_EQ(strip(kNothing), kNothing);
+  EXPECT_FALSE(filter_.is_waiting());
+}
+
 TEST_F(EchoFilterTest, TheTimeOfTheAnswerOnTheLineCounts) {
   EchoFilter slow(1200);
   slow.expect(kEchoedWrite, true, now_);
@@ -102,10 +111,10 @@ TEST_F(EchoFilterTest, PartOfAnEchoIsReturnedInTime) {
   answer_write();
   const Bytes part(kEchoedWrite.begin(), kEchoedWrite.begin() + 5);
   EXPECT_EQ(strip(part), kNothing);
-  EXPECT_TRUE(filter_.is_holding());
+  EXPECT_TRUE(filter_.is_waiting());
   now_ = filter_.deadline();
   EXPECT_EQ(strip({}), part);
-  EXPECT_FALSE(filter_.is_holding());
+  EXPECT_FALSE(filter_.is_waiting());
 }
 
 TEST_F(EchoFilterTest, OnALineWithoutAnEchoARepetitionAtOncePasses) {
