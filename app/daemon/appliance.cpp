@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/daemon/appliance.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -46,6 +49,13 @@ std::shared_ptr<Lines> open_lines(const files::Configuration& site) {
   return std::make_shared<Lines>(settings, [machine = site.simulation](const std::string& line) {
     return simulation::is_connected(machine, line);
   });
+}
+
+/// Time until `end` in started seconds; 0: `end` is max.
+std::uint32_t seconds_until(hal::TimePoint end, hal::TimePoint now) {
+  if (end == hal::TimePoint::max()) return 0;
+  const auto left = std::chrono::ceil<std::chrono::seconds>(end - now).count();
+  return static_cast<std::uint32_t>(std::max<std::int64_t>(left, 1));
 }
 
 }  // namespace
@@ -97,10 +107,11 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
   };
   all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.background_,
                           &*all.alignment_, std::move(program));
-  plan->surroundings = [&all, grants](hal::TimePoint now) {
-    return pipeline::Surroundings{
-        all.health_.latest(now), all.lines_->faults(), all.interfaces_->faults(), grants.realtime,
-        grants.memory_locked,    all.watched(),        all.configuration_refused_};
+  plan->surroundings = [&all, grants, trial_end = restart.trial_end](hal::TimePoint now) {
+    return pipeline::Surroundings{all.health_.latest(now),    all.lines_->faults(),
+                                  all.interfaces_->faults(),  grants.realtime,
+                                  grants.memory_locked,       all.watched(),
+                                  all.configuration_refused_, seconds_until(trial_end(), now)};
   };
   all.absent_ = plan->absent;
   for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());

@@ -334,6 +334,7 @@ void Pipeline::publish_status() {
     status_.realtime = surroundings.realtime;
     status_.memory_locked = surroundings.memory_locked;
     status_.configuration_refused = surroundings.configuration_refused;
+    status_.trial_left = surroundings.trial_left;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       static_cast<CameraWatchStatus&>(status_.cameras[i]) = surroundings.watched[i];
     }

@@ -49,6 +49,7 @@ struct Surroundings {
   bool memory_locked = false;          ///< see SystemStatus
   std::array<CameraWatchStatus, kMaxCameras> watched{};
   bool configuration_refused = false;  ///< see SystemStatus
+  std::uint32_t trial_left = 0;        ///< see SystemStatus
 };
 
 /// Everything that the pipeline needs; cameras are configured already, unless they are absent.

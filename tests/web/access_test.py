@@ -125,13 +125,17 @@ class Access(PageCase):
             [ROOT / "build/release/app/orbwatch", "password",
              "--config", self.appliance.folder / "demo.toml"],
             input=NEXT_PASSWORD + "\n", encoding="utf-8", check=True, capture_output=True)
-        # The session with the old password ends, and its stream with it.
+        # The session with the old password ends, and its stream with it; the page remains.
+        self.browser.execute_script("window.isTheSamePage = true")
         eventually("the form", lambda: self.access_fields("password"))
         self.fill_access(user="admin", password=PASSWORD)
         eventually("the old one is refused",
                    lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
         self.fill_access(user="admin", password=NEXT_PASSWORD)
+        eventually("the form is gone", lambda: self.browser.execute_script(
+            "return document.getElementById('access').hidden"))
         self.expect_live()
+        self.assertTrue(self.browser.execute_script("return window.isTheSamePage"))
         self.assertEqual(self.users(), {"admin": "administrator"})
 
     def test_6_nothing_keeps_anybody_out(self):

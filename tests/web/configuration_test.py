@@ -5,6 +5,8 @@ Folders: app/ports/web/configuration app/files app/ports/web/page/files/system
 """
 
 import json
+import re
+import signal
 import unittest
 import urllib.request
 
@@ -136,6 +138,40 @@ class ConfigurationPage(PageCase):
         eventually("the old one runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() == self.checksum))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
+    def test_configuration_on_trial_is_ended_on_any_page(self):
+        self.try_another_name("cladding", "elsewhere")
+        self.assertIn("started on the board", self.browser.text("#configuration [role=timer]"))
+        self.browser.execute_script("location.hash = '#/live'")
+        eventually("the header counts the seconds", lambda: re.search(
+            r"reverted in \d+ s", self.browser.text("#notices")))
+        [revert] = [one for one in self.browser.find_elements(By.CSS_SELECTOR, "#notices button")
+                    if one.text == "Revert now"]
+        revert.click()
+        eventually("the old one runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() == self.checksum))
+        eventually("the header names no trial",
+                   lambda: "reverted in" not in self.browser.text("#notices"))
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
+    def test_configuration_that_is_refused_is_named_on_all_pages(self):
+        self.addCleanup(lambda: eventually("it is mended", lambda: not self.appliance.status()[
+            "system"]["configuration_refused"]))
+        self.addCleanup(self.appliance.daemon.send_signal, signal.SIGHUP)
+        self.addCleanup(self.appliance.recipe.write_bytes, self.recipe)
+        self.browser.execute_script("location.hash = '#/live'")
+        self.appliance.recipe.write_bytes(b"nonsense")
+        self.appliance.daemon.send_signal(signal.SIGHUP)
+        eventually("the header says so", lambda: "the last good one runs" in self.browser.text(
+            "#notices a[href='#/system']"))
+
+    def test_configuration_that_is_typed_is_not_lost_without_a_question(self):
+        asks = """const event = new Event('beforeunload', { cancelable: true });
+                  dispatchEvent(event);
+                  return event.defaultPrevented;"""
+        self.assertFalse(self.browser.execute_script(asks))
+        self.type_into("demo-recipe.toml", "name = ", "# typed here\nname = ")
+        self.assertTrue(self.browser.execute_script(asks))
 
     def test_configuration_that_was_sent_goes_back_by_itself(self):
         sent = self.appliance.folder / "sent" / "demo-recipe.toml"

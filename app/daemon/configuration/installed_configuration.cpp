@@ -113,6 +113,7 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
   if (!trial) return tl::unexpected(trial.error());
   if (!*trial) return state;
   state.trial.emplace();
+  state.owner = (*trial)->owner;
   for (const auto& [file, text] : (*trial)->texts) (*state.trial)[name_of(file)] = text;
   const hal::TimePoint end = trial_end_;
   if (end != hal::TimePoint{}) {
@@ -166,8 +167,9 @@ Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Edit& e
   if (!there) return tl::unexpected(there.error());
   const auto basis = checksums_in(edit.based_on);
   if (!basis) return tl::unexpected(basis.error());
-  const auto trial = checked_trial(file_, *there, seconds, *basis);
+  auto trial = checked_trial(file_, *there, seconds, *basis);
   if (!trial) return tl::unexpected(trial.error());
+  trial->owner = edit.owner;
   Change change = change_of(*trial);
   if (change.files.empty()) return fail("these texts change nothing");
   for (const std::string& name : change.files) {

@@ -56,7 +56,9 @@ Result<> ApplianceThread::run() {
   ProgressNotice notice(chosen->refusal, context_.is_supervised);  // outlives the run
   const auto files = std::make_shared<InstalledConfiguration>(context_.file, *chosen);
   auto appliance = Appliance::make(
-      chosen->site, {[&restarts] { return restarts.check(); }, [&restarts] { restarts.restart(); }},
+      chosen->site,
+      {[&restarts] { return restarts.check(); }, [&restarts] { restarts.restart(); },
+       [&restarts] { return restarts.trial_end(); }},
       [&](const CalibrationEntry& entry) {
         return check_acceptance(context_.file, chosen->site, entry);
       },

@@ -56,7 +56,8 @@ Trial trial_of(const nlohmann::json& json) {
   for (const auto& [path, kept] : json.at("files").items()) {
     trial.texts[path] = kept.get<std::string>();
   }
-  // This key is absent in a trial that an older version requested.
+  // These keys are absent in a trial that an older version requested.
+  trial.owner = json.value("owner", "");
   const auto based_on = json.find("based_on");
   if (based_on == json.end()) return trial;
   for (const auto& [path, checksum] : based_on->items()) {
@@ -85,7 +86,8 @@ Result<> request_trial(const fs::path& folder, const Trial& trial) {
   const nlohmann::json json{{"site", trial.site.string()},
                             {"seconds", trial.seconds},
                             {"files", files},
-                            {"based_on", based_on}};
+                            {"based_on", based_on},
+                            {"owner", trial.owner}};
   std::error_code none;  // belongs to a previous request
   fs::remove(report_in(folder), none);
   try {

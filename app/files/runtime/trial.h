@@ -31,6 +31,7 @@ struct Trial {
   /// Checksums of the files that the texts were based on: the confirmation would lose a later
   /// change. Files that are not listed may change.
   FileChecksums based_on{};
+  std::string owner{};  ///< user of the page who started it; empty: it was started on the board
 };
 
 /// Present checksums of these files.

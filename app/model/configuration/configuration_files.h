@@ -34,7 +34,8 @@ class ConfigurationFiles {
   /// New texts, and the versions on which they are based.
   struct Edit {
     Texts texts;
-    Basis based_on;  ///< files not named here are taken as they are at the trial
+    Basis based_on;       ///< files not named here are taken as they are at the trial
+    std::string owner{};  ///< user who sends them
   };
 
   /// The files, and the trial that runs instead of them.
@@ -46,6 +47,7 @@ class ConfigurationFiles {
     std::optional<Texts> trial{};  ///< texts that run instead, or are about to; nullopt: no trial
     /// Until the trial is reverted; nullopt: it does not run yet.
     std::optional<double> seconds_left{};
+    std::string owner{};  ///< user who started the trial; empty: it was started on the board
     std::map<std::string, Version> versions{};  ///< versions of `files`
   };
 

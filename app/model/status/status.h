@@ -165,10 +165,13 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")              \
   FIELD(bool, configuration_refused, kFlag,                                                        \
         "The configuration files are invalid: the last good configuration runs, the log has the "  \
-        "reason")
+        "reason")                                                                                  \
+  FIELD(std::uint32_t, trial_left, kTrialTime,                                                     \
+        "Time until the configuration on trial is reverted, at least 1 s; 0: none is on trial")
 
 inline constexpr Quantity kShare{"", 0.001, 0, 1000};
 inline constexpr Quantity kProcessorTime{"ms", 0.001, 0, 100000};
+inline constexpr Quantity kTrialTime{"s", 1, 0, 4000};
 
 /// The appliance as a whole.
 struct SystemStatus {

@@ -121,6 +121,8 @@ TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   })) << shown();
   EXPECT_GT(left, 3500);
   EXPECT_LE(left, 3600);
+  EXPECT_GT(read("system_trial_left"), 3500);
+  EXPECT_LE(read("system_trial_left"), 3600);
   EXPECT_EQ(ask("try", of_recipe(kSmallRecipe)).status, 409) << "one at a time";
 
   const Answer confirmed = ask("confirm", json::object());
@@ -129,6 +131,7 @@ TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   EXPECT_EQ(contents(folder / "recipe.toml"), other_recipe());
   EXPECT_EQ(fs::status(folder / "recipe.toml").permissions(), fs::perms(0640));
   EXPECT_TRUE(shown()["trial"].is_null());
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_trial_left") == 0; }));
   const auto checksum = read("system_configuration_checksum");
   daemon.send(SIGHUP);
   manager.await("READY=1");

@@ -95,7 +95,7 @@ Answered<ConfigurationAnswer> ConfigurationDesk::read() const {
   ConfigurationAnswer answer{state->site, {}, state->refusal, {}};
   add(answer.files, state->files, state->versions, true);
   add(answer.files, state->outside, {}, false);
-  if (state->trial) answer.trial = {*state->trial, state->seconds_left};
+  if (state->trial) answer.trial = {*state->trial, state->seconds_left, state->owner};
   return answer;
 }
 
@@ -160,8 +160,10 @@ Answered<ConfigurationFiles::Change> ConfigurationDesk::check_edit(
 Answered<TrialAnswer> ConfigurationDesk::try_edit(ChangeRequest& change, const Answered<Edit>& edit,
                                                   int seconds) {
   return edit.and_then([&](const Edit& sent) { return permitted(change, sent); })
-      .and_then(
-          [&](const Edit& sent) { return files_->try_out(sent, seconds).map_error(conflict); })
+      .and_then([&](Edit sent) {
+        sent.owner = change.caller.name;
+        return files_->try_out(sent, seconds).map_error(conflict);
+      })
       .map([&](const ConfigurationFiles::Change& tried) {
         change.before = side_of(tried.difference, '-');
         change.after = side_of(tried.difference, '+');

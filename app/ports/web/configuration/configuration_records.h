@@ -58,12 +58,14 @@ void visit(Visitor& v, FileAnswer& file) {
 struct TrialState {
   ConfigurationFiles::Texts files;
   std::optional<double> seconds_left;
+  std::string owner;
 };
 template <class Visitor>
 void visit(Visitor& v, TrialState& trial) {
   v.required("files", trial.files, "Texts on trial by file name");
   v.required("seconds_left", trial.seconds_left, "Until it is reverted; null: not running yet",
              "s");
+  v.required("owner", trial.owner, "User who started it; empty: it was started on the board");
 }
 
 struct ConfigurationAnswer {

@@ -46,13 +46,15 @@ class TrialFile : public testing::Test {
 
 TEST_F(TrialFile, IsTakenOnceAndRunsUntilItsEnd) {
   EXPECT_EQ(take_trial(folder_.path()).value(), std::nullopt);
-  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {{"/etc/rig.toml", "x"}}, 30}));
+  ASSERT_TRUE(request_trial(folder_.path(),
+                            {"/etc/site.toml", {{"/etc/rig.toml", "x"}}, 30, {}, "kim"}));
   EXPECT_TRUE(is_trial_requested(folder_.path()));
   const auto taken = take_trial(folder_.path());
   ASSERT_TRUE(taken && *taken);
   EXPECT_EQ((*taken)->site, "/etc/site.toml");
   EXPECT_EQ((*taken)->seconds, 30);
   EXPECT_EQ((*taken)->texts.at("/etc/rig.toml"), "x");
+  EXPECT_EQ((*taken)->owner, "kim");
   EXPECT_FALSE(is_trial_requested(folder_.path()));
   EXPECT_TRUE(running_trial(folder_.path()).value());
   EXPECT_TRUE(end_trial(folder_.path()));

@@ -21,6 +21,7 @@ import { texts } from "./texts.js";
 const kRetryMs = 500;
 const kSilenceS = 2;
 const condition = document.getElementById("condition");
+let configuration = null; // the files, of who may change them
 
 function say(text, isWrong) {
   setText(condition, text);
@@ -76,7 +77,7 @@ function makeSystem(section) {
   showAbout(section);
   if (isAtLeast("integrator")) {
     new Interfaces(section);
-    new Configuration(section);
+    configuration = new Configuration(section);
   }
   if (session.has_users && isAtLeast("administrator")) new People(section, session);
   return system;
@@ -98,7 +99,8 @@ const session = await admit(() => say(texts.connecting, true));
 const isAtLeast = (role) => session.roles.includes(role);
 const links = addTabs();
 const faults = new Faults(), recipe = new Recipe();
-const notices = new Notices(document.getElementById("notices"), recipe, links);
+const notices = new Notices(document.getElementById("notices"), recipe, links,
+  isAtLeast("integrator"));
 const figures = await figuresOfAppliance();
 const made = [];
 // The shown tab with pictures of views, if any.
@@ -123,4 +125,8 @@ const stream = new Stream(
   },
 );
 addEventListener("hashchange", choose);
+// The browser asks before unsent changes are lost.
+addEventListener("beforeunload", (event) => {
+  if (recipe.body || configuration?.isChanged) event.preventDefault();
+});
 choose();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header of all pages: the recipe, and what needs a person: alarms that stand or are not acknowledged, and cameras
-// that are not aligned.
+// Header of all pages: the recipe, and what needs a person: alarms that stand or are not acknowledged, cameras
+// that are not aligned, a configuration that is on trial or refused.
+import { post } from "./appliance/api.js";
 import { element, setText } from "./elements/elements.js";
 import { texts } from "./texts.js";
 
@@ -36,22 +37,53 @@ function show(link, text) {
   link.hidden = text === "";
 }
 
+// The trial that runs, with its end: a person looks at other pages meanwhile.
+class TrialNotice {
+  constructor(mayChange) {
+    this.text = element("span", { className: "wrong" });
+    this.said = element("span", { className: "wrong" });
+    const buttons = mayChange ? [this.#button("confirm", texts.confirmFiles),
+      this.#button("revert", texts.revertFiles)] : [];
+    this.root = element("p", { hidden: true }, this.text, ...buttons.flatMap((one) => [" ", one]), " ",
+      this.said);
+  }
+
+  show(seconds) {
+    this.root.hidden = seconds === 0;
+    if (seconds > 0) setText(this.text, texts.notices.trial(seconds));
+    else setText(this.said, "");
+  }
+
+  #button(what, label) {
+    const button = element("button", { type: "button" }, label);
+    button.addEventListener("click", async () => {
+      const refused = await post(`api/v1/${what}_configuration`, {});
+      setText(this.said, refused ? texts.refused(refused) : "");
+    });
+    return button;
+  }
+}
+
 export class Notices {
   #count = 0; // raised alarms
 
-  // `links`: those of the navigation by page.
-  constructor(root, recipe, links) {
+  // `links`: those of the navigation by page. `mayChange`: the user may end a trial.
+  constructor(root, recipe, links, mayChange) {
     Object.assign(this, { links });
     this.recipe = element("p", { className: "quiet" });
     this.alarms = notice("process");
     this.alignment = notice("align");
-    root.append(this.recipe, this.alarms, this.alignment);
+    this.configuration = notice("system");
+    this.trial = new TrialNotice(mayChange);
+    root.append(this.recipe, this.alarms, this.alignment, this.configuration, this.trial.root);
     recipe.addEventListener("change", () => setText(this.recipe, texts.notices.recipe(recipe.stated)));
     addEventListener("hashchange", () => this.#entitle());
     this.#entitle();
   }
 
-  status({ alarms = [], cameras }) {
+  status({ alarms = [], cameras, system }) {
+    show(this.configuration, system.configuration_refused ? texts.notices.refused : "");
+    this.trial.show(system.trial_left);
     const raised = raisedAlarms(alarms);
     show(this.alarms, raised.length === 0 ? ""
       : texts.notices.alarms(raised.length, raised[0].name, raised[0].state_text));

@@ -45,6 +45,8 @@ export const texts = {
     notAligned: (camera, percent) => `${camera} is not aligned: ${percent?.toFixed(1)} % off`,
     notRegistered: (camera) => `${camera} is not registered`,
     moved: (camera) => `${camera} has moved since its alignment`,
+    refused: "The configuration is invalid: the last good one runs",
+    trial: (seconds) => `Trial of a configuration: reverted in ${seconds} s`,
     recipe: ({ number, name }) => (number === 0 ? "" : `Recipe ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
     badge: (page, alarms) => (alarms > 0 ? `${page} (${alarms})` : page),
@@ -145,8 +147,9 @@ export const texts = {
   confirmed: "Kept: the files are written.",
   reverted: "It is being reverted.",
   tried: "The appliance restarts with the new texts.",
-  goesBack: (seconds) => (seconds === null ? "A new configuration runs on trial."
-    : `A new configuration runs on trial. Without confirmation it is reverted in ${Math.ceil(seconds)} s.`),
+  goesBack: ({ seconds_left: seconds, owner }) => `A new configuration runs on trial, started ${
+    owner ? `by ${owner}` : "on the board"}.${seconds === null ? ""
+    : ` Without confirmation it is reverted in ${Math.ceil(seconds)} s.`}`,
   filesCount: "The configuration of the files runs.",
   filesRefused: (why) => `The files are invalid, the last good ones run: ${why}`,
   uploadFiles: "Upload texts from this computer",

@@ -74,6 +74,7 @@ TEST_F(Configuration, IsTriedOutAndConfirmed) {
   EXPECT_EQ(json::parse(tried.body)["seconds"], 30);
   EXPECT_EQ(shown()["trial"]["files"]["rig.toml"], text);
   EXPECT_EQ(shown()["trial"]["seconds_left"], 30);
+  EXPECT_EQ(shown()["trial"]["owner"], "integrator");
   EXPECT_EQ(text_of(shown(), "rig.toml"), "a = 1\n");
 
   EXPECT_THAT(json::parse(ask("confirm", json::object()).body)["files"], ElementsAre("rig.toml"));

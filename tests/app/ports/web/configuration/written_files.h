@@ -47,6 +47,7 @@ class WrittenFiles final : public ConfigurationFiles {
     if (change) {
       state.trial = edit.texts;
       state.seconds_left = seconds;
+      state.owner = edit.owner;
     }
     return change;
   }

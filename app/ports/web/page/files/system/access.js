@@ -8,7 +8,8 @@ const kRetryMs = 500;
 const kFirstUser = "admin";
 const account = document.getElementById("account");
 const section = document.getElementById("access");
-let isSending = false;  // a form is being sent: the page is not reloaded until the answer
+let isSending = false;  // a form is being sent: the page asks for no login until the answer
+let admitted = null;    // session of the user for whom the page was made
 
 export async function session() {
   const answer = await fetch("api/v1/session");
@@ -16,8 +17,8 @@ export async function session() {
   return answer.json();
 }
 
-// `send(values)` returns the reason of a refusal, or nothing; then the page is reloaded.
-function showForm(title, fields, action, send) {
+// `send(values)` returns the reason of a refusal, or nothing; then `onDone()` is called.
+function showForm(title, fields, action, send, onDone = () => location.reload()) {
   const refusal = element("p", { role: "alert", className: "wrong" });
   const form = element("form", {}, ...fields, element("button", {}, action), refusal);
   form.addEventListener("submit", async (event) => {
@@ -27,7 +28,7 @@ function showForm(title, fields, action, send) {
     const refused = await send(Object.fromEntries(new FormData(form)));
     isSending = false;
     if (refused) setText(refusal, texts.refused(refused));
-    else location.reload();
+    else onDone();
   });
   setText(document.getElementById("access-title"), title);
   section.querySelector("form")?.remove();
@@ -36,11 +37,11 @@ function showForm(title, fields, action, send) {
   form.querySelector("input").focus();
 }
 
-function showLogin() {
+function showLogin(onDone) {
   showForm(texts.logInTitle, [
     field(texts.user, { name: "user", autocomplete: "username" }),
     field(texts.password, { name: "password", type: "password", autocomplete: "current-password" }),
-  ], texts.logIn, (values) => post("api/v1/login", values));
+  ], texts.logIn, (values) => post("api/v1/login", values), onDone);
 }
 
 function newPasswordFields(characters) {
@@ -93,6 +94,7 @@ export async function admit(onNoAnswer) {
     try {
       const present = await session();
       if (present.role) {
+        admitted = present;
         showAccount(present);
         return present;
       }
@@ -106,8 +108,16 @@ export async function admit(onNoAnswer) {
   }
 }
 
-// After a lost connection: asks for a new login if the session has ended.
+// After a lost connection: asks for a new login if the session has ended, over the page, so that nothing typed is
+// lost. The page is made again for another user.
 export async function askAgain() {
+  if (!section.hidden) return;
   const present = await session().catch(() => null);
-  if (present && !present.role && !isSending) location.reload();
+  if (!present || present.role || isSending) return;
+  showLogin(async () => {
+    const next = await session().catch(() => null);
+    if (next?.user !== admitted.user || next.role !== admitted.role) return location.reload();
+    section.hidden = true;
+    showAccount(next);
+  });
 }

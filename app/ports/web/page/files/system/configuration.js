@@ -90,6 +90,11 @@ export class Configuration {
     root.append(this.opened);
   }
 
+  // True: texts were typed that are not in the files.
+  get isChanged() {
+    return this.#changed() !== null;
+  }
+
   #show(state) {
     setText(this.refusal, state.refusal ? texts.filesRefused(state.refusal) : "");
     for (const file of state.files) {

@@ -59,7 +59,7 @@ export class Trial {
     this.#trial = state.trial;
     this.waiting.hidden = !state.trial;
     if (state.trial) {
-      setText(this.waiting.firstChild, texts.goesBack(state.trial.seconds_left));
+      setText(this.waiting.firstChild, texts.goesBack(state.trial));
     } else if (hadTrial) {
       this.say(texts.filesCount);
     }
