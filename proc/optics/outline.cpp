@@ -154,6 +154,12 @@ std::optional<Outline> fit_ellipse(const std::array<Vec2, kSamples>& points) {
 
 }  // namespace
 
+double relative_distance(const Outline& outline, const Vec2& pixel) {
+  const double angle = radians(outline.angle), c = std::cos(angle), s = std::sin(angle);
+  const double du = pixel.u - outline.centre.u, dv = pixel.v - outline.centre.v;
+  return std::hypot((du * c + dv * s) / outline.rx, (dv * c - du * s) / outline.ry);
+}
+
 Result<> check_ellipse(const Outline& outline) {
   if (!std::isfinite(outline.centre.u) || !std::isfinite(outline.centre.v) ||
       !std::isfinite(outline.angle)) {

@@ -20,6 +20,10 @@ struct Outline {
 /// The mean of both half axes, px.
 constexpr double mean_radius(const Outline& outline) { return (outline.rx + outline.ry) / 2; }
 
+/// Distance of a pixel from the centre, relative to that of the limb in the same direction: 1 on
+/// the limb. Reentrant.
+double relative_distance(const Outline& outline, const Vec2& pixel);
+
 /// Error: numbers that are not finite, axes that are not above 0.
 Result<> check_ellipse(const Outline& outline);
 

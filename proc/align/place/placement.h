@@ -96,9 +96,9 @@ inline constexpr std::size_t kLeastMarksPerCamera = 2;
 /// are left out one by one. Takes some milliseconds, a second when much is unknown. Reentrant.
 ///
 /// Error, naming camera and point: numbers that are not finite or sigmas that are not above 0, too
-/// few marks, marks outside of the outline, points within the ball or that it cannot show, marks
-/// that do not determine the unknowns or fit two solutions, marks that contradict one another so
-/// that none can be identified as wrong.
+/// few marks, marks farther outside of the outline than three sigmas of both, points within the
+/// ball or that it cannot show, marks that do not determine the unknowns or fit two solutions,
+/// marks that contradict one another so that none can be identified as wrong.
 Result<Placement> place(const PlaceRequest& request);
 
 }  // namespace orbwatch::align

@@ -14,6 +14,9 @@ namespace {
 using optics::Vec2;
 using optics::Vec3;
 
+/// Limit for a mark outside of the outline: errors of both, in sigmas.
+constexpr double kMostSigmas = 3;
+
 bool is_finite(const Vec3& v) { return std::isfinite(v.x + v.y + v.z); }
 bool is_sigma(double sigma) { return sigma > 0 && std::isfinite(sigma); }
 
@@ -47,11 +50,12 @@ Result<> check_points(const PlaceRequest& request) {
   return {};
 }
 
-/// True for a pixel within the ellipse.
-bool is_within(const optics::Outline& outline, const Vec2& pixel) {
-  const double angle = optics::radians(outline.angle), c = std::cos(angle), s = std::sin(angle);
+/// Distance of a pixel from the limb towards the centre, px; negative within the ball.
+double distance_outside(const optics::Outline& outline, const Vec2& pixel) {
+  const double relative = optics::relative_distance(outline, pixel);
+  if (relative == 0) return -outline.rx;
   const double du = pixel.u - outline.centre.u, dv = pixel.v - outline.centre.v;
-  return std::hypot((du * c + dv * s) / outline.rx, (dv * c - du * s) / outline.ry) < 1;
+  return std::hypot(du, dv) * (1 - 1 / relative);
 }
 
 Result<> check_marks(const PlaceRequest& request, std::size_t c) {
@@ -66,8 +70,12 @@ Result<> check_marks(const PlaceRequest& request, std::size_t c) {
       return fail("camera " + camera.name + ": " + point_text(request, mark.point) +
                   ": its pixel must be finite numbers");
     }
-    if (!is_within(camera.outline, mark.pixel)) {
-      return fail(mark_text(request, c, m) + " lies outside of the ball's outline");
+    const double most = kMostSigmas * std::hypot(request.sigma_px, camera.outline_sigma);
+    const double outside = distance_outside(camera.outline, mark.pixel);
+    if (outside > most) {
+      return fail(mark_text(request, c, m) + " lies " + short_number(outside) +
+                  " px outside of the ball's outline; the sigmas permit " + short_number(most) +
+                  " px");
     }
   }
   return {};

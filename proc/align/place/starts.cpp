@@ -24,7 +24,17 @@ struct Sighted {
   std::vector<PointSight> sights;  ///< one per mark
 };
 
-/// nullopt if the outline is not a ball's with this focal length, or a mark lies outside of it.
+/// A pixel that the ball shows in any case: a mark next to the limb may lie outside by its error.
+optics::Vec2 well_inside(const optics::Outline& outline, const optics::Vec2& pixel) {
+  constexpr double kMostRelative = 0.99;
+  const double relative = optics::relative_distance(outline, pixel);
+  if (relative <= kMostRelative) return pixel;
+  const optics::Vec2& centre = outline.centre;
+  const double scale = kMostRelative / relative;
+  return {centre.u + (pixel.u - centre.u) * scale, centre.v + (pixel.v - centre.v) * scale};
+}
+
+/// nullopt if the outline is not a ball's with this focal length.
 std::optional<Sighted> sighted(const PlaceRequest& request, const UnplacedCamera& camera,
                                double log_focal) {
   const auto lens = lens_at(camera, log_focal);
@@ -37,7 +47,7 @@ std::optional<Sighted> sighted(const PlaceRequest& request, const UnplacedCamera
   if (!picture) return std::nullopt;
   Sighted all{log_focal, ball, {}};
   for (const PointMark& mark : camera.marks) {
-    const auto ray = picture->ray(mark.pixel);
+    const auto ray = picture->ray(well_inside(camera.outline, mark.pixel));
     if (!ray) return std::nullopt;
     all.sights.push_back({request.points[mark.point] * (1 / request.ball_radius),
                           {ray->origin - ball, ray->direction}});

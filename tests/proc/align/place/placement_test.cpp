@@ -80,6 +80,49 @@ TEST(Placement, NeedsNoMoreThanItSays) {
   }
 }
 
+/// The point beside the ball that is shown nearest to the limb, and where.
+std::pair<optics::Vec3, optics::Vec2> nearest_to_limb(const MirroredRig& rig) {
+  const RigCamera& camera = rig.cameras[0];
+  const optics::Vec3 towards = normalized(camera.pose.position - rig.centre);
+  const optics::Vec3 side = normalized(cross(towards, optics::Vec3{0.3, 0.5, 0.8}));
+  std::pair<optics::Vec3, optics::Vec2> nearest;
+  for (double angle = 90; angle < 180; angle += 0.01) {
+    const double a = optics::radians(angle);
+    const auto point = rig.centre + (towards * std::cos(a) + side * std::sin(a)) * (8 * rig.radius);
+    const optics::Vec2 pixel = seen_at(camera, rig.centre, rig.radius, point);
+    if (std::isnan(pixel.u)) break;
+    nearest = {point, pixel};
+  }
+  return nearest;
+}
+
+TEST(Placement, UsesAMarkOutsideOfTheOutlineByItsError) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    Scene scene = exact(seed, {1, 8}, kKnown);
+    auto& camera = scene.request.cameras[0];
+    const auto [point, seen] = nearest_to_limb(scene.rig);
+    const optics::Vec2 middle = camera.outline.centre, out{seen.u - middle.u, seen.v - middle.v};
+    const double away = std::hypot(out.u, out.v);
+    const double limb = away / optics::relative_distance(camera.outline, seen);
+    const auto outside = [&](double px) {
+      const double scale = (limb + px) / away;
+      return optics::Vec2{middle.u + out.u * scale, middle.v + out.v * scale};
+    };
+    camera.marks.push_back({align::add_point(scene.request, point), outside(0.3)});
+    const auto placed = place(scene.request);
+    ASSERT_TRUE(placed) << placed.error().message;
+    EXPECT_FALSE(placed->cameras[0].marks.back().is_outlier);
+    EXPECT_LT(direction_error(scene.rig, 0, *placed), 0.1);
+    camera.marks.back().pixel = outside(5);
+    const auto refused = place(scene.request);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("px outside of the ball's outline; the sigmas permit"),
+              std::string::npos)
+        << refused.error().message;
+  }
+}
+
 TEST(Placement, CamerasThatShareTheBallHelpOneAnother) {
   std::mt19937_64 random(5);
   const MirroredRig rig = random_rig(random, {2, 6});
