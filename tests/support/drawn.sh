@@ -7,8 +7,20 @@
 # shellcheck disable=SC2034
 alignment=(app/simulation proc/align proc/optics tests/proc/align tests/support)
 
-# The commit of the last whole run; empty when there was none.
-last_whole() { sed -n 's/^Commit: *//p' tests/REPORT.md 2>/dev/null || true; }
+# passed_at PART: prints the commit at which a part of tests/whole passed last; empty: never.
+passed_at() { awk -F' \\| ' -v part="| $1" '$1 == part && $5 ~ /^passed/ {print $3}' tests/REPORT.md 2>/dev/null || true; }
+
+# last_whole PART: prints the newest commit at which all of PART passed, alone or within `run`.
+last_whole() {
+  local own run
+  own=$(passed_at "$1")
+  run=$(passed_at run)
+  if [[ $1 == machines || -z $run ]] || git merge-base --is-ancestor "$run" "${own:-none}" 2>/dev/null; then
+    echo "$own"
+  else
+    echo "$run"
+  fi
+}
 
 # draws NAME: ends with 0 when HEAD's hash draws NAME, one of four.
 draws() {
@@ -19,10 +31,10 @@ draws() {
 }
 
 # due NAME FOLDER...: ends with 0 when NAME is to run: in a whole run (whole=1), when something below a
-# folder changed since the last whole run, or when it is drawn.
+# folder changed since the last whole run of $part, or when it is drawn.
 due() {
   local code=0
   ((${whole:-0})) && return
-  tests/support/changed "${ORBWATCH_SINCE:-$(last_whole)}" "${@:2}" || code=$?
+  tests/support/changed "${ORBWATCH_SINCE:-$(last_whole "$part")}" "${@:2}" || code=$?
   ((code != 1)) || draws "$1"
 }

@@ -24,7 +24,7 @@ compile() {
 # the others, to files `due` and `not_due` in its folder.
 choose_programs() {
   local folder=build/$1 fate name
-  tests/support/due_programs.py "$folder" "${ORBWATCH_SINCE:-$(last_whole)}" >"$folder/programs" || return
+  tests/support/due_programs.py "$folder" "${ORBWATCH_SINCE:-$(last_whole sanitizers)}" >"$folder/programs" || return
   while read -r fate name; do
     if ((whole)) || [[ $fate == due ]] || draws "$1 $name"; then
       echo "$name" >&3
