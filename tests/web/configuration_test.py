@@ -77,6 +77,9 @@ class ConfigurationPage(PageCase):
     def said(self):
         return self.browser.text("#configuration [role=status]")
 
+    def name_in_file(self):
+        return re.search(r'^name = "(.*)"', self.recipe.decode(), re.MULTILINE)[1]
+
     def try_another_name(self, old, new):
         self.type_into("demo-recipe.toml", f'name = "{old}"', f'name = "{new}"')
         self.press("Try out")
@@ -131,16 +134,14 @@ class ConfigurationPage(PageCase):
         self.assertEqual(self.appliance.recipe.read_bytes(), by_hand)
 
     def test_configuration_goes_back_when_asked(self):
-        name = [line for line in self.recipe.decode().splitlines()
-                if line.startswith("name = ")][0].split('"')[1]
-        self.try_another_name(name, "another")
+        self.try_another_name(self.name_in_file(), "another")
         self.press("Revert now")
         eventually("the old one runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() == self.checksum))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
 
     def test_configuration_on_trial_is_ended_on_any_page(self):
-        self.try_another_name("cladding", "elsewhere")
+        self.try_another_name(self.name_in_file(), "elsewhere")
         self.assertIn("started on the board", self.browser.text("#configuration [role=timer]"))
         self.browser.execute_script("location.hash = '#/live'")
         eventually("the header counts the seconds", lambda: re.search(
@@ -155,8 +156,8 @@ class ConfigurationPage(PageCase):
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
 
     def test_configuration_that_is_refused_is_named_on_all_pages(self):
-        self.addCleanup(lambda: eventually("it is mended", lambda: not self.appliance.status()[
-            "system"]["configuration_refused"]))
+        self.addCleanup(lambda: eventually("it is mended", lambda: self.appliance.says(
+            lambda: not self.appliance.status()["system"]["configuration_refused"])))
         self.addCleanup(self.appliance.daemon.send_signal, signal.SIGHUP)
         self.addCleanup(self.appliance.recipe.write_bytes, self.recipe)
         self.browser.execute_script("location.hash = '#/live'")

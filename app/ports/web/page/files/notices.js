@@ -50,8 +50,8 @@ class TrialNotice {
 
   show(seconds) {
     this.root.hidden = seconds === 0;
-    if (seconds > 0) setText(this.text, texts.notices.trial(seconds));
-    else setText(this.said, "");
+    setText(this.text, seconds > 0 ? texts.notices.trial(seconds) : "");
+    if (seconds === 0) setText(this.said, "");
   }
 
   #button(what, label) {
