@@ -243,6 +243,7 @@ void RegisterSources::expect_status() {
   expect([](S s) { s.live.status.realtime = true; }, {"system_realtime"});
   expect([](S s) { s.live.status.memory_locked = true; }, {"system_memory_locked"});
   expect([](S s) { s.live.status.configuration_refused = true; }, {"system_configuration_refused"});
+  expect([](S s) { s.live.status.trial_left = 30; }, {"system_trial_left"});
   for (std::size_t i = 0; i < kStages; ++i) {
     const std::string name = "stage_" + std::string(name_of(static_cast<Stage>(i))) + "_";
     expect([i](S s) { s.live.status.stages[i].cpu_ms = 1.2; }, {name + "cpu_ms"});
