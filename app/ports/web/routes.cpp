@@ -103,10 +103,11 @@ std::vector<Route> picture_routes(const RouteOwners& of) {
 
 std::vector<Route> alignment_routes(const RouteOwners& of) {
   return {
-      get<&AlignRoutes::state>(
+      get<&AlignRoutes::state, AlignmentAnswer>(
           "/api/v1/alignment", Viewer, of.alignment,
           "Returns per camera the ball's outline, the pose, the proposal, the points with "
-          "residuals, and the scene's edges as seen from the ball's centre and in the picture"),
+          "residuals, and the scene's edges as seen from the ball's centre and in the picture. The "
+          "ETag changes with the answer"),
       get<&AlignRoutes::ball>("/api/v1/alignment/ball.jpg", Viewer, of.alignment,
                               "Returns a camera's next picture in full resolution", kJpeg),
       get<&AlignRoutes::view>(

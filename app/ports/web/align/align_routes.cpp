@@ -3,14 +3,19 @@
 
 #include <memory>
 
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/http/entity_tag.h"
+
 namespace orbwatch::app::web {
 
-Answered<AlignmentAnswer> AlignRoutes::state() const {
+Response AlignRoutes::state() const {
   AlignmentAnswer answer;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     answer.cameras.push_back({cameras_[i], i, source_ ? source_->report(i) : AlignmentReport()});
   }
-  return answer;
+  Response response = json_response(json_text(json_of(answer)));
+  response.tag = entity_tag(*response.body);
+  return response;
 }
 
 void AlignRoutes::ball(const CameraQuery& query, const ExchangePtr& exchange) const {

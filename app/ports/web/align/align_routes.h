@@ -19,7 +19,8 @@ class AlignRoutes {
   AlignRoutes(std::vector<std::string> cameras, AlignmentSource* source)
       : cameras_(std::move(cameras)), source_(source) {}
 
-  Answered<AlignmentAnswer> state() const;
+  /// AlignmentAnswer with a tag, because pages request it repeatedly and it changes rarely.
+  Response state() const;
   void ball(const CameraQuery& query, const ExchangePtr& exchange) const;
   void view(const CameraViewQuery& query, const ExchangePtr& exchange) const;
   Answered<DirectionAnswer> direction(const CameraPixelQuery& query) const;

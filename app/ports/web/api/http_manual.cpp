@@ -20,6 +20,8 @@ edit. The appliance serves the same description for programs, OpenAPI 3.0.3, at
   that is missing or not allowed, 401 and 403 for the role, 404 for an unknown name, 409 for what is
   not possible at present or with this configuration, 429 and 503 for a request that may be
   repeated later.
+- An answer with an `ETag` may be kept, and is sent again only if it changed: a request with that
+  tag in `If-None-Match` is answered 304 without a body.
 - A program sends a token, `Authorization: Bearer TOKEN`. A session's cookie requires the header
   `X-Orbwatch` for a POST.
 - A name such as `cameras[].name` is a member of each object in a list; `NAME` is any name.

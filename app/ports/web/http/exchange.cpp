@@ -3,6 +3,8 @@
 
 #include <microhttpd.h>
 
+#include "app/ports/web/http/entity_tag.h"
+
 namespace orbwatch::app::web {
 
 bool Exchange::answer(Response response) {
@@ -25,7 +27,7 @@ bool Exchange::give_up(Response response) {
 bool Exchange::answer_locked(Response response) {
   if (is_answered_) return false;
   is_answered_ = true;
-  response_ = std::move(response);
+  response_ = if_none_match(request_, std::move(response));
   if (suspended_) ::MHD_resume_connection(std::exchange(suspended_, nullptr));
   return true;
 }

@@ -20,7 +20,8 @@ class Exchange {
 
   const Request& request() const { return request_; }
 
-  /// Answers the request. False: it was answered before, for example by the server's deadline.
+  /// Answers the request, by if_none_match() of the response. False: it was answered before, for
+  /// example by the server's deadline.
   bool answer(Response response);
   bool is_answered() const;
 

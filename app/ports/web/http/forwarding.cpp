@@ -8,43 +8,13 @@
 #include <utility>
 
 #include "app/ports/web/http/address.h"
+#include "app/ports/web/http/header_list.h"
 
 namespace orbwatch::app::web {
 namespace {
 
 constexpr std::string_view kForwardedFor = "X-Forwarded-For", kForwarded = "Forwarded",
                            kPrefix = "X-Forwarded-";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
-/// Rule for separators in quoted strings (RFC 9110, 5.6.4); X-Forwarded-* has no such strings.
-enum class Quotes { None, Hold };
-
-/// Splits at separators. Nullopt: a quoted string has no end, so that it might contain text that a
-/// proxy appended.
-std::optional<std::vector<std::string_view>> split(std::string_view text, char separator,
-                                                   Quotes quotes) {
-  std::vector<std::string_view> parts;
-  std::size_t begin = 0;
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (is_quoted && text[i] == '\\') {
-      ++i;
-    } else if (text[i] == '"' && quotes == Quotes::Hold) {
-      is_quoted = !is_quoted;
-    } else if (text[i] == separator && !is_quoted) {
-      parts.push_back(trimmed(text.substr(begin, i - begin)));
-      begin = i + 1;
-    }
-  }
-  if (is_quoted) return std::nullopt;
-  parts.push_back(trimmed(text.substr(begin)));
-  return parts;
-}
 
 std::string unquoted(std::string_view text) {
   if (text.size() < 2 || text.front() != '"' || text.back() != '"') return std::string(text);
@@ -54,24 +24,6 @@ std::string unquoted(std::string_view text) {
     plain += text[i];
   }
   return plain;
-}
-
-/// The elements of all lines of a header as one list (RFC 9110, 5.3). Nullopt: see split().
-std::optional<std::vector<std::string>> list_of(const Request& request, std::string_view name,
-                                                Quotes quotes) {
-  std::vector<std::string> list;
-  for (const auto& [sent, value] : request.headers) {
-    if (!equal_in_any_case(sent, name)) continue;
-    const auto parts = split(value, ',', quotes);
-    if (!parts) return std::nullopt;
-    list.insert(list.end(), parts->begin(), parts->end());
-  }
-  return list;
-}
-
-/// The elements of an X-Forwarded-* header.
-std::vector<std::string> plain_list_of(const Request& request, std::string_view name) {
-  return *list_of(request, name, Quotes::None);
 }
 
 const std::vector<std::string_view> kNothing;

@@ -64,6 +64,7 @@ struct Response {
   int status = 200;
   std::string type{kJson};
   Bytes body;
+  std::string tag{};  ///< entity_tag() of the content, if clients may keep it; empty: they may not
   std::shared_ptr<Stream> stream;
   Values headers;  ///< in addition to those of every answer
   /// Returns whether the client may still receive the stream; called repeatedly. Empty: always.

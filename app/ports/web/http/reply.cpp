@@ -10,9 +10,8 @@ namespace {
 /// Largest block that libmicrohttpd reads from a stream at once.
 constexpr std::size_t kStreamBlock = 128 * 1024;
 
-/// Headers of every answer: no resources of other origins, no inline scripts, no framing, no
-/// caching.
-constexpr std::array<std::pair<const char*, const char*>, 9> kHeaders{
+/// Headers of every answer: no resources of other origins, no inline scripts, no framing.
+constexpr std::array<std::pair<const char*, const char*>, 8> kHeaders{
     {{"Content-Security-Policy",
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
       "connect-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"},
@@ -22,7 +21,6 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kHeaders{
      {"Cross-Origin-Resource-Policy", "same-origin"},
      {"Cross-Origin-Opener-Policy", "same-origin"},
      {"Permissions-Policy", "camera=(), microphone=(), geolocation=()"},
-     {"Cache-Control", "no-store"},
      {"Server", "orbwatch"}}};
 
 /// Adds headers; null: out of memory.
@@ -33,6 +31,13 @@ Reply with_headers(Reply reply, const Response& response, const Values& more) {
   if (!reply) return reply;
   bool added = add(MHD_HTTP_HEADER_CONTENT_TYPE, response.type.c_str());
   for (const auto& [name, value] : kHeaders) added = added && add(name, value);
+  if (response.tag.empty()) {
+    added = added && add(MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
+  } else {
+    // Kept by clients, and revalidated before each use.
+    added = added && add(MHD_HTTP_HEADER_CACHE_CONTROL, "no-cache") &&
+            add(MHD_HTTP_HEADER_ETAG, response.tag.c_str());
+  }
   for (const Values* headers : {&response.headers, &more}) {
     for (const auto& [name, value] : *headers) added = added && add(name.c_str(), value.c_str());
   }

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/look_around/look_around.h"
 
-#include <cstdint>
-#include <cstdio>
 #include <utility>
 
+#include "app/ports/web/http/entity_tag.h"
 #include "app/ports/web/look_around/mesh_text.h"
 
 namespace orbwatch::app::web {
-namespace {
-
-/// Hash FNV-1a, quoted as required by HTTP.
-std::string tag_of(const std::string& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  char text[19];
-  std::snprintf(text, sizeof text, "\"%016llx\"", static_cast<unsigned long long>(hash));
-  return text;
-}
-
-}  // namespace
 
 LookAround::LookAround(const StatusNames& names, const std::vector<PublishedView>& views,
                        std::shared_ptr<hal::SharedThreads> threads)
@@ -61,7 +48,7 @@ void LookAround::compute() {
     }
     auto mesh = std::make_shared<const std::string>(
         mesh_text(optics::ball_mesh(*sphere.view), *sphere.view));
-    std::string tag = tag_of(*mesh);
+    std::string tag = entity_tag(*mesh);
     std::vector<ExchangePtr> waiting;
     {
       const std::lock_guard lock(mutex_);
@@ -74,10 +61,8 @@ void LookAround::compute() {
 }
 
 void LookAround::answer(const ExchangePtr& exchange, const Bytes& mesh, const std::string& tag) {
-  const std::string* has = exchange->request().header("If-None-Match");
-  const bool is_known = has && *has == tag;
-  Response response = is_known ? body_response(kType, "", 304) : body_response(kType, mesh);
-  response.headers.emplace_back("ETag", tag);
+  Response response = body_response(kType, mesh);
+  response.tag = tag;
   exchange->answer(std::move(response));
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -26,7 +27,7 @@ class Source : public AlignmentSource {
     if (camera != 0) return report;
     report.is_watched = true;
     report.state = ProposalState::Ready;
-    report.steps = 2;
+    report.steps = steps;
     report.in_force.emplace();
     report.in_force->outline = {{310, 250.5}, 220, 200, 30};
     report.in_force->rotation = {40, -20, 10};
@@ -51,6 +52,8 @@ class Source : public AlignmentSource {
     pictures_.emplace_back([on_picture = std::move(on_picture)] { on_picture("a picture"); });
     return {};
   }
+  std::atomic<std::size_t> steps{2};
+
   AlignmentPicture asked() const {
     const std::lock_guard lock(mutex_);
     return asked_;
@@ -105,6 +108,21 @@ TEST_F(ServedAlignment, SaysWhatIsInForceAndWhatIsProposed) {
   EXPECT_EQ(first["points"][1]["residual"], nullptr);
   EXPECT_EQ(cameras[1]["in_force"], nullptr);
   EXPECT_EQ(cameras[1]["is_watched"], false);
+}
+
+TEST_F(ServedAlignment, IsSentAgainOnlyWhenItHasChanged) {
+  const Answer first = get(port(), "/api/v1/alignment");
+  const std::string tag = first.headers.at("ETag");
+  EXPECT_EQ(first.headers.at("Cache-Control"), "no-cache");
+  const Answer same = get(port(), "/api/v1/alignment", "If-None-Match: " + tag + "\r\n");
+  EXPECT_EQ(same.status, 304);
+  EXPECT_TRUE(same.body.empty());
+  EXPECT_EQ(same.headers.at("ETag"), tag);
+  source.steps = 3;
+  const Answer other = get(port(), "/api/v1/alignment", "If-None-Match: " + tag + "\r\n");
+  EXPECT_EQ(other.status, 200);
+  EXPECT_EQ(json::parse(other.body)["cameras"][0]["steps"], 3);
+  EXPECT_NE(other.headers.at("ETag"), tag);
 }
 
 TEST_F(ServedAlignment, ABallsPictureComesWhenTheCameraHasTakenIt) {
