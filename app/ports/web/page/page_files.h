@@ -6,10 +6,11 @@
 
 namespace orbwatch::app::web {
 
-/// A file of page/files, embedded at build time.
+/// A file that the build makes of page/files, embedded.
 struct PageFile {
-  std::string_view name;  ///< path within page/files
+  std::string_view name;
   std::string_view content;
+  std::string_view packed;  ///< the content, compressed by gzip
 };
 
 /// The page: index.html and the files that it loads.

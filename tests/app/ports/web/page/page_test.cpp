@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -20,6 +21,11 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = ORBWATCH_SOURCE_DIR "/app/ports/web/page/files";
 
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 /// Paths of files in attributes of HTML and in imports of scripts, resolved relative to `file`.
 std::set<std::string> files_named_in(const fs::path& file, const std::string& text) {
   static const std::regex kName(R"rx((?:src|href|from)(?:=| )"([^"#]+)")rx");
@@ -31,37 +37,103 @@ std::set<std::string> files_named_in(const fs::path& file, const std::string& te
   return names;
 }
 
-TEST_F(Served, EveryFileOfThePageIsServedAsItWasWritten) {
-  start();
-  std::size_t files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
-    const std::string name = entry.path().lexically_relative(kFolder);
-    if (entry.is_directory() || name.ends_with("README.md")) continue;
-    std::ifstream file(entry.path(), std::ios::binary);
-    const std::string content(std::istreambuf_iterator<char>(file), {});
-    const Answer answer = get(port(), name == "index.html" ? "/" : "/" + name);
-    EXPECT_EQ(answer.status, 200) << name;
-    EXPECT_EQ(answer.body, content) << name;
-    EXPECT_EQ(answer.headers.at("Content-Type"), page_type(name));
-    EXPECT_FALSE(page_type(name).empty()) << name << " has an ending without a type";
-    ++files;
-  }
-  EXPECT_EQ(files, kPageFiles.size());
+std::string path_of(const PageFile& file) {
+  return file.name == "index.html" ? "/" : "/" + std::string(file.name);
 }
 
-/// All files that the page loads, directly or indirectly, exist and come from the appliance.
+/// Content of a file of gzip(1).
+std::string unpacked(const std::string& gzip) {
+  std::string content(1 << 20, '\0');
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(gzip.data()));
+  stream.avail_in = static_cast<uInt>(gzip.size());
+  stream.next_out = reinterpret_cast<Bytef*>(content.data());
+  stream.avail_out = static_cast<uInt>(content.size());
+  constexpr int kGzip = 16;  // added to the window's bits: the header is that of gzip
+  EXPECT_EQ(inflateInit2(&stream, kGzip + MAX_WBITS), Z_OK);
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  EXPECT_EQ(stream.avail_in, 0U);
+  content.resize(stream.total_out);
+  inflateEnd(&stream);
+  return content;
+}
+
+TEST_F(Served, FilesOfThePageAreSentPackedToClientsThatAcceptIt) {
+  start();
+  for (const PageFile& file : kPageFiles) {
+    const Answer plain = get(port(), path_of(file));
+    const Answer packed = get(port(), path_of(file), "Accept-Encoding: br, gzip\r\n");
+    EXPECT_EQ(plain.status, 200) << file.name;
+    EXPECT_EQ(plain.body, file.content);
+    EXPECT_FALSE(plain.headers.contains("Content-Encoding"));
+    EXPECT_EQ(packed.status, 200) << file.name;
+    EXPECT_EQ(packed.headers.at("Content-Encoding"), "gzip");
+    EXPECT_LT(packed.body.size(), plain.body.size());
+    EXPECT_EQ(unpacked(packed.body), plain.body) << file.name;
+    for (const Answer* answer : {&plain, &packed}) {
+      EXPECT_EQ(answer->headers.at("Vary"), "Accept-Encoding");
+      EXPECT_EQ(answer->headers.at("Cache-Control"), "no-cache");
+      EXPECT_EQ(answer->headers.at("Content-Type"), page_type(file.name));
+      EXPECT_THAT(answer->headers.at("Content-Security-Policy"), HasSubstr("script-src 'self'"));
+    }
+    EXPECT_FALSE(page_type(file.name).empty()) << file.name << " has an ending without a type";
+  }
+}
+
+TEST_F(Served, FilesOfThePageAreSentAgainOnlyWhenTheyHaveChanged) {
+  start();
+  std::set<std::string> tags;
+  for (const PageFile& file : kPageFiles) {
+    const std::string tag = get(port(), path_of(file)).headers.at("ETag");
+    EXPECT_TRUE(tags.insert(tag).second) << file.name << " has the tag of another file";
+    for (const char* accepts : {"", "Accept-Encoding: gzip\r\n"}) {
+      const Answer same = get(port(), path_of(file), "If-None-Match: " + tag + "\r\n" + accepts);
+      EXPECT_EQ(same.status, 304) << file.name;
+      EXPECT_TRUE(same.body.empty());
+      EXPECT_EQ(same.headers.at("ETag"), tag);
+      EXPECT_EQ(same.headers.at("Vary"), "Accept-Encoding");
+      EXPECT_EQ(same.headers.at("Cache-Control"), "no-cache");
+      EXPECT_FALSE(same.headers.contains("Content-Encoding"));
+      const Answer other =
+          get(port(), path_of(file), std::string("If-None-Match: \"x\"\r\n") + accepts);
+      EXPECT_EQ(other.status, 200) << file.name;
+      EXPECT_EQ(other.headers.at("ETag"), tag);
+    }
+  }
+}
+
+/// Where nothing is bundled, the file is the source.
+TEST_F(Served, HtmlAndIconAreServedAsTheyWereWritten) {
+  start();
+  EXPECT_EQ(get(port(), "/").body, read(kFolder / "index.html"));
+  EXPECT_EQ(get(port(), "/icon.svg").body, read(kFolder / "icon.svg"));
+}
+
 TEST_F(Served, ThePageLoadsOnlyItsOwnFiles) {
   start();
-  std::set<std::string> seen, open{""};
+  std::set<std::string> served;
+  for (const PageFile& file : kPageFiles) served.insert(std::string(file.name));
+  std::set<std::string> loaded = files_named_in("", get(port(), "/").body);
+  loaded.insert("index.html");
+  EXPECT_EQ(loaded, served);
+  const std::string script = get(port(), "/main.js").body;
+  EXPECT_FALSE(std::regex_search(script, std::regex(R"(\bimport\s*["'{*(])")));
+  EXPECT_EQ(script.find("sourceMappingURL"), std::string::npos);
+}
+
+/// The bundle holds what the page loads, directly or indirectly.
+TEST(Page, HasNoFileThatNoneLoads) {
+  std::set<std::string> loaded, open{"index.html"}, files;
   while (!open.empty()) {
     const std::string name = *open.begin();
     open.erase(open.begin());
-    if (!seen.insert(name).second) continue;
-    const Answer answer = get(port(), "/" + name);
-    ASSERT_EQ(answer.status, 200) << name;
-    open.merge(files_named_in(name, answer.body));
+    if (loaded.insert(name).second) open.merge(files_named_in(name, read(kFolder / name)));
   }
-  EXPECT_EQ(seen.size(), kPageFiles.size()) << "some file is loaded by none";
+  for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
+    const std::string name = entry.path().lexically_relative(kFolder);
+    if (entry.is_regular_file() && !name.ends_with("README.md")) files.insert(name);
+  }
+  EXPECT_EQ(loaded, files);
 }
 
 /// The policy sent with the page forbids both.

@@ -4,19 +4,20 @@ export const kHistoryMs = 600000;
 // A status has momentary values; the appliance also keeps the peaks between two of them.
 const kAgainMs = 10000;
 
-// Capacity for all values that the appliance reports in that time, four per second, and some more; memory is
-// allocated at once.
+// Capacity for all values that the appliance reports in that time, four per second, and some more.
+const kMostValues = 3000;
+
+// Memory is allocated at once.
 class Ring {
-  static #most = 3000;
-  #at = new Float64Array(Ring.#most); // ms
-  #values = new Float64Array(Ring.#most); // NaN: not measured
+  #at = new Float64Array(kMostValues); // ms
+  #values = new Float64Array(kMostValues); // NaN: not measured
   #oldest = 0;
   #count = 0;
 
   // `value` null: not measured.
   add(at, value) {
-    if (this.#count === Ring.#most) this.#forgetOldest();
-    const place = (this.#oldest + this.#count) % Ring.#most;
+    if (this.#count === kMostValues) this.#forgetOldest();
+    const place = (this.#oldest + this.#count) % kMostValues;
     this.#at[place] = at;
     this.#values[place] = value ?? NaN;
     ++this.#count;
@@ -24,14 +25,14 @@ class Ring {
   }
 
   #forgetOldest() {
-    this.#oldest = (this.#oldest + 1) % Ring.#most;
+    this.#oldest = (this.#oldest + 1) % kMostValues;
     --this.#count;
   }
 
   // {at, low, high}, oldest first; null where nothing was measured.
   get points() {
     return Array.from({ length: this.#count }, (_, index) => {
-      const place = (this.#oldest + index) % Ring.#most;
+      const place = (this.#oldest + index) % kMostValues;
       const value = Number.isNaN(this.#values[place]) ? null : this.#values[place];
       return { at: this.#at[place], low: value, high: value };
     });
