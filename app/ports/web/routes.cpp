@@ -13,6 +13,7 @@
 #include "app/ports/web/described_routes.h"
 #include "app/ports/web/fleet/fleet_routes.h"
 #include "app/ports/web/history/history_routes.h"
+#include "app/ports/web/http/fixed_content.h"
 #include "app/ports/web/interfaces/interface_routes.h"
 #include "app/ports/web/log/log_routes.h"
 #include "app/ports/web/look_around/look_around.h"
@@ -36,7 +37,9 @@ Route description_route() {
               std::string(kJson)};
   route.answer = schema_of<Json, Sent::ByUs>;
   route.serve = [](const ExchangePtr& exchange) {
-    exchange->answer(json_response(openapi_json(routes_of({}))));
+    // Made by the first request, and the same for all.
+    static const FixedContent description(kJson, openapi_json(routes_of({})) + "\n");
+    description.answer(exchange);
   };
   return route;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <set>
 
 #include "app/ports/web/page/page_files.h"
+#include "tests/app/ports/web/gunzip.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {
@@ -41,23 +41,6 @@ std::string path_of(const PageFile& file) {
   return file.name == "index.html" ? "/" : "/" + std::string(file.name);
 }
 
-/// Content of a file of gzip(1).
-std::string unpacked(const std::string& gzip) {
-  std::string content(1 << 20, '\0');
-  z_stream stream{};
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(gzip.data()));
-  stream.avail_in = static_cast<uInt>(gzip.size());
-  stream.next_out = reinterpret_cast<Bytef*>(content.data());
-  stream.avail_out = static_cast<uInt>(content.size());
-  constexpr int kGzip = 16;  // added to the window's bits: the header is that of gzip
-  EXPECT_EQ(inflateInit2(&stream, kGzip + MAX_WBITS), Z_OK);
-  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
-  EXPECT_EQ(stream.avail_in, 0U);
-  content.resize(stream.total_out);
-  inflateEnd(&stream);
-  return content;
-}
-
 TEST_F(Served, FilesOfThePageAreSentPackedToClientsThatAcceptIt) {
   start();
   for (const PageFile& file : kPageFiles) {
@@ -69,7 +52,7 @@ TEST_F(Served, FilesOfThePageAreSentPackedToClientsThatAcceptIt) {
     EXPECT_EQ(packed.status, 200) << file.name;
     EXPECT_EQ(packed.headers.at("Content-Encoding"), "gzip");
     EXPECT_LT(packed.body.size(), plain.body.size());
-    EXPECT_EQ(unpacked(packed.body), plain.body) << file.name;
+    EXPECT_EQ(gunzip(packed.body), plain.body) << file.name;
     for (const Answer* answer : {&plain, &packed}) {
       EXPECT_EQ(answer->headers.at("Vary"), "Accept-Encoding");
       EXPECT_EQ(answer->headers.at("Cache-Control"), "no-cache");
