@@ -73,16 +73,14 @@ class Page(PageCase):
             return json.load(answer)
 
     def charted_before_it_was_opened(self):
-        """Seconds before the loading of the page that the strip of a region shows; None: it is
-        empty. There are words above and below the strip."""
+        """Seconds before the loading of the page that the chart of a region shows; None: it is empty."""
         return self.browser.execute_script("""
             const canvas = document.querySelector('[data-region] canvas');
             if (!canvas?.width) return null;
-            const words = Math.ceil(canvas.height / 8);
             const copy = new OffscreenCanvas(canvas.width, canvas.height)
               .getContext('2d', { willReadFrequently: true });
             copy.drawImage(canvas, 0, 0);
-            const { data } = copy.getImageData(0, words, canvas.width, canvas.height - 2 * words);
+            const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
             const drawn = [...data.keys()].filter((k) => k % 4 === 3 && data[k] > 0);
             if (drawn.length === 0) return null;
             const first = Math.min(...drawn.map((k) => (k - 3) / 4 % canvas.width));

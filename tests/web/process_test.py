@@ -58,7 +58,7 @@ class RecipeOnThePage(PageCase):
         Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
-        self.find("[data-region=pool] .strip")
+        self.find("[data-region=pool] .plot")
         # A chart that takes another scale moves its lines: whoever misses one pulls again.
         dragged = eventually("it is dragged", lambda: self.drag_up(
             "[data-limit='1 high_warning'] .grip", "high_warning", 26))
@@ -80,7 +80,7 @@ class RecipeOnThePage(PageCase):
         Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
-        self.find("[data-region=pool] .strip")
+        self.find("[data-region=pool] .plot")
         shares = self.browser.execute_script("""
             const shares = {};
             for (const grip of document.querySelectorAll('[data-region=pool] .limit .grip')) {

@@ -264,7 +264,11 @@ export const texts = {
   chartOf: "Signal in the chart",
   chart: (name, low, high, unit) =>
     `${name} in the last ten minutes: ${low} to ${high}${unit ? " " + unit : ""}`,
+  now: "now",
+  fromTo: (low, high) => `${low} to ${high}`,
   process: {
+    compared: "compared with",
+    nothing: "nothing",
     limits: "Limits in the chart",
     limitsOf: (alarm, unit) => `Limits of alarm ${alarm}${unit ? `, ${unit}` : ""}`,
     limitOf: (limit, alarm) => `${limit} of alarm ${alarm}`,

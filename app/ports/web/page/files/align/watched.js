@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drift of an alignment, focus and cleanness of the ball, over time.
 import { History } from "../appliance/history.js";
-import { chartCanvas, drawChart } from "../elements/chart.js";
+import { Chart } from "../elements/chart.js";
 import { element, setText } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
@@ -17,10 +17,10 @@ export class Watched {
   constructor(descriptions) {
     this.descriptions = descriptions;
     this.parts = Object.fromEntries(Object.keys(kFigures).map((name) => [name, {
-      now: element("p"), canvas: chartCanvas(texts.watched[name]) }]));
+      now: element("p"), chart: new Chart(texts.watched[name]) }]));
     this.outline = element("p");
     this.root = element("section", { id: "watched" }, element("h3", {}, texts.watched.title),
-      ...Object.values(this.parts).flatMap(({ now, canvas }) => [now, canvas]), this.outline);
+      ...Object.values(this.parts).flatMap(({ now, chart }) => [now, chart.root]), this.outline);
   }
 
   // `chosen`: name of the camera that is shown, or nothing.
@@ -42,11 +42,11 @@ export class Watched {
     setText(this.outline, texts.watched.outline(camera.outline_check_text,
       figureText(camera.outline_offset), camera.outline_offset !== null));
     for (const [name, judge] of Object.entries(kFigures)) {
-      const { unit = "" } = this.descriptions[name] ?? {}, { now: said, canvas } = this.parts[name];
+      const { unit = "" } = this.descriptions[name] ?? {}, { now: said, chart } = this.parts[name];
       const value = camera[name] === null ? texts.watched.notKnown : `${figureText(camera[name])} ${unit}`;
       setText(said, texts.watched.now(texts.watched[name], value, camera[`${judge}_text`]));
       this.#histories[name].refresh(now);
-      drawChart(canvas, this.#histories[name], texts.watched[name], unit, now);
+      chart.draw([{ history: this.#histories[name], name: texts.watched[name], unit }], now);
     }
   }
 }

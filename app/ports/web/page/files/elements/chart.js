@@ -1,71 +1,170 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last ten minutes of one figure as a strip.
+// Chart of the last ten minutes of one or two figures over local time, with the values at the pointer. With axis.js
+// and curve.js it has 12 kB; dygraph.min.js of libjs-dygraphs 2.2.1 has 131 kB, without limits that are dragged.
 import { kHistoryMs } from "../appliance/history.js";
 import { texts } from "../texts.js";
-import { element } from "./elements.js";
+import { timeTicks, ValueAxis } from "./axis.js";
+import { secondText, wallTime } from "./clock.js";
+import { freshBrush, pointAt, pointsOf, strokeCurve, valuesOf } from "./curve.js";
+import { element, setText } from "./elements.js";
 import { figureText } from "./figures.js";
+import { drawn, place } from "./shapes.js";
 
-const kLinePx = 16;  // height of a text line
-const kGapMs = 2000;  // silence that counts as a gap
+const kAxisPx = 56;    // width of the labels of an axis, or of limits
+const kMarginPx = 8;   // the same without labels
+const kNowPx = 40;     // width of the label "now"
+const kStepMs = 1000, kLargeStepMs = 10000;  // step of a key
+const kRadiusPx = 4;
+const kBeyond = 0.08;  // room beyond limits, where ranges are shaded; share of the values' range
+const kSeries = ["first", "second"];  // their classes
+const kSteps = { ArrowLeft: 1, ArrowDown: 1, ArrowRight: -1, ArrowUp: -1 };
+const kEnds = { Home: kHistoryMs, End: 0, Escape: null };
 
-// Vertical positions of values in a chart: shares of its height from the top, with room for a line of text
-// above and below.
-export class Scale {
-  constructor(values, height) {
-    this.low = Math.min(...values);
-    this.high = Math.max(...values);
-    this.span = this.high - this.low || 1;
-    this.height = height;
-  }
-  y(value) {
-    return this.height - kLinePx - (value - this.low) / this.span * (this.height - 2 * kLinePx);
-  }
-  value(y) {
-    return this.low + (this.height - kLinePx - y) / (this.height - 2 * kLinePx) * this.span;
-  }
+const axisOf = (values, height) => (values.length === 0 ? null : new ValueAxis(values, height));
+
+// Values that make room beyond limits.
+function beyond(limits, measured) {
+  const all = [...limits, ...measured], room = kBeyond * (Math.max(...all) - Math.min(...all));
+  return limits.length === 0 ? [] : [Math.min(...limits) - room, Math.max(...limits) + room];
 }
 
-const measuredOf = (points) =>
-  points.flatMap(({ low, high }) => [low, high]).filter((value) => value !== null);
-
-// Range of the measured values and of `more` values to be visible; null: no measurement.
-export function scaleOf(canvas, history, more = []) {
-  const measured = measuredOf(history.points);
-  return measured.length === 0 && more.length === 0 ? null
-    : new Scale([...measured, ...more], canvas.clientHeight);
+function amount(point, unit) {
+  if (!point) return figureText(null);
+  const [low, high] = [point.low, point.high].map((value) => figureText(value));
+  return `${low === high ? low : texts.fromTo(low, high)} ${unit}`.trim();
 }
 
-// Canvas of a chart, with its name for screen readers from the beginning.
-export const chartCanvas = (name) => element("canvas",
-  { className: "chart", role: "img", "aria-label": texts.chartEmpty(name) });
+export class Chart {
+  #age = null;     // age of the moment at the pointer, ms; null: the newest values are stated
+  #shown = null;   // {series, now, width}
+  #gridKey = "";
 
-export function drawChart(canvas, history, name, unit, now, scale = scaleOf(canvas, history)) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = canvas.clientWidth * ratio;
-  canvas.height = canvas.clientHeight * ratio;
-  const { points } = history, values = measuredOf(points);
-  canvas.setAttribute("aria-label", values.length === 0 ? texts.chartEmpty(name)
-    : texts.chart(name, figureText(Math.min(...values)), figureText(Math.max(...values)), unit));
-  if (!scale) return;
-  const brush = canvas.getContext("2d");
-  brush.scale(ratio, ratio);
-  const style = getComputedStyle(canvas);
-  brush.strokeStyle = style.color;
-  brush.lineWidth = 2;
-  brush.beginPath();
-  let before = null;
-  for (const point of points.filter(({ at }) => at >= now - kHistoryMs)) {
-    const x = canvas.clientWidth * (1 + (point.at - now) / kHistoryMs);
-    const isDrawn = before !== null && before.low !== null && point.at - before.at < kGapMs;
-    before = point;
-    if (point.low === null) continue;
-    if (!isDrawn) brush.moveTo(x, scale.y(point.low));
-    brush.lineTo(x, scale.y(point.low));
-    brush.lineTo(x, scale.y(point.high));
+  // `name`: for screen readers. `layers`: shapes between the grid and the curves.
+  constructor(name, ...layers) {
+    this.grid = drawn("svg", { class: "grid", "aria-hidden": true });
+    this.canvas = element("canvas", { role: "slider", tabIndex: 0, "aria-label": texts.chartEmpty(name),
+      "aria-valuemin": -kHistoryMs / 1000, "aria-valuemax": 0, "aria-valuenow": 0 });
+    this.cursor = drawn("svg", { class: "cursor", "aria-hidden": true });
+    this.plot = element("div", { className: "plot" }, this.grid, ...layers, this.canvas, this.cursor);
+    this.when = element("span", { className: "quiet" });
+    this.read = kSeries.map((className) => element("span", { className }));
+    this.root = element("div", { className: "chart" },
+      element("p", { className: "read" }, ...this.read, this.when), this.plot);
+    for (const kind of ["pointerdown", "pointermove"]) {
+      this.plot.addEventListener(kind, (event) => this.#point(event));
+    }
+    this.plot.addEventListener("pointerleave", ({ pointerType }) => {
+      if (pointerType === "mouse") this.#setAge(null);
+    });
+    this.canvas.addEventListener("keydown", (event) => this.#press(event));
+    this.canvas.addEventListener("blur", () => this.#setAge(null));
   }
-  brush.stroke();
-  brush.fillStyle = getComputedStyle(document.body).color;
-  brush.font = "12px system-ui, sans-serif";
-  brush.fillText(`${figureText(scale.high)} ${unit}`, 4, kLinePx - 3);
-  brush.fillText(`${figureText(scale.low)} ${unit}`, 4, scale.height - 4);
+
+  // `series`: {history, name, unit} of one or two figures. `limits`: values of the first one to be included in its
+  // axis; `held`: an axis to be kept. Returns the first one's axis; null: nothing to show.
+  draw(series, now, limits = [], held = null) {
+    const plotted = series.map((one) => ({ ...one, points: pointsOf(one.history, now) }));
+    const values = plotted.map(({ points }) => valuesOf(points));
+    const isShared = plotted.length > 1 && plotted[0].unit === plotted[1].unit;
+    this.#makeRoom(limits.length > 0, plotted.length > 1 && !isShared);
+    const height = this.plot.clientHeight;
+    const first = held ?? axisOf([...values[0], ...beyond(limits, values[0]), ...(isShared ? values[1] : [])], height);
+    plotted.forEach((one, n) => { one.axis = n === 0 || isShared ? first : axisOf(values[n], height); });
+    this.#shown = { series: plotted, now, width: this.plot.clientWidth, height };
+    this.#drawGrid(isShared ? plotted.slice(0, 1) : plotted);
+    this.#drawCurves();
+    this.#describe(plotted[0], values[0]);
+    this.#showValues();
+    return first;
+  }
+
+  get width() {
+    return this.#shown.width;
+  }
+
+  // The right margin has the labels of limits, then those of the second axis.
+  #makeRoom(hasLimits, hasSecond) {
+    this.second = hasLimits ? kAxisPx : 0; // distance of the second axis from the plot
+    const margin = this.second + (hasSecond ? kAxisPx : 0) || kMarginPx;
+    this.plot.style.marginRight = `${margin}px`;
+    this.plot.style.marginLeft = `${kAxisPx}px`;
+  }
+
+  #drawGrid(series) {
+    const { now, width, height } = this.#shown, shapes = [];
+    const line = (ends) => shapes.push(["line", ends]);
+    const label = (x, y, anchor, text, kind = "") =>
+      shapes.push(["text", { x, y, "text-anchor": anchor, class: kind }, text]);
+    series.forEach(({ axis, unit }, n) => {
+      const x = n === 0 ? -6 : width + this.second + 6, anchor = n === 0 ? "end" : "start";
+      for (const { y, text } of axis?.ticks ?? []) {
+        if (n === 0) line({ x1: 0, x2: width, y1: y, y2: y });
+        label(x, y + 4, anchor, text, kSeries[n]);
+      }
+      if (axis) label(x, -8, anchor, unit, kSeries[n]);
+    });
+    for (const { x, text } of timeTicks(width, kHistoryMs, wallTime(now))) {
+      const at = Math.round(x);
+      line({ x1: at, x2: at, y1: 0, y2: height });
+      if (at < width - kNowPx) label(at, height + 18, "middle", text);
+    }
+    label(width, height + 18, "end", texts.now);
+    const key = JSON.stringify(shapes);
+    if (key === this.#gridKey) return;
+    this.#gridKey = key;
+    this.grid.replaceChildren(...shapes.map(([tag, attributes, ...content]) =>
+      drawn(tag, attributes, ...content)));
+  }
+
+  #drawCurves() {
+    const { series, now, width } = this.#shown, brush = freshBrush(this.canvas);
+    brush.lineWidth = 2;
+    series.forEach(({ points, axis }, n) => {
+      if (!axis) return;
+      brush.strokeStyle = getComputedStyle(this.read[n]).color;
+      strokeCurve(brush, points, axis, width, now);
+    });
+  }
+
+  #describe({ name, unit }, values) {
+    this.canvas.setAttribute("aria-label", values.length === 0 ? texts.chartEmpty(name)
+      : texts.chart(name, figureText(Math.min(...values)), figureText(Math.max(...values)), unit));
+  }
+
+  #point({ clientX }) {
+    const box = this.plot.getBoundingClientRect();
+    const share = Math.min(1, Math.max(0, (clientX - box.left) / box.width));
+    this.#setAge((1 - share) * kHistoryMs);
+  }
+
+  #press(event) {
+    const step = (event.shiftKey ? kLargeStepMs : kStepMs) * (kSteps[event.key] ?? 0);
+    if (!step && !(event.key in kEnds)) return;
+    event.preventDefault();
+    this.#setAge(step ? Math.min(kHistoryMs, Math.max(0, (this.#age ?? 0) + step)) : kEnds[event.key]);
+  }
+
+  #setAge(age) {
+    this.#age = age;
+    if (this.#shown) this.#showValues();
+  }
+
+  // States the values at the pointer, and marks them in the plot.
+  #showValues() {
+    const { series, now, width, height } = this.#shown, age = this.#age ?? 0;
+    const points = series.map((one) => pointAt(one.points, now - age));
+    const when = this.#age === null ? texts.now : secondText(wallTime(now - age));
+    setText(this.when, when);
+    this.read.forEach((shown, n) => {
+      shown.hidden = n >= series.length;
+      if (!shown.hidden) setText(shown, `${series[n].name} ${amount(points[n], series[n].unit)}`);
+    });
+    const stated = this.read.filter(({ hidden }) => !hidden).map(({ textContent }) => textContent);
+    place(this.canvas, { "aria-valuenow": Math.round(-age / 1000), "aria-valuetext": `${when}: ${stated.join("; ")}` });
+    const x = width * (1 - age / kHistoryMs);
+    this.cursor.replaceChildren(...(this.#age === null ? [] : [
+      drawn("line", { x1: x, x2: x, y1: 0, y2: height }),
+      ...points.flatMap((point, n) => (point ? [drawn("circle", { class: kSeries[n], r: kRadiusPx,
+        cx: x, cy: series[n].axis.y(point.high) })] : []))]));
+  }
 }

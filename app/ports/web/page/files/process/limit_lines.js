@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of alarms as lines over a chart, dragged or moved by keys, and typed below it.
-import { element } from "../elements/elements.js";
+// Limits of alarms in a chart, as lines that are dragged or moved by keys, with the ranges beyond them shaded; and
+// typed below it.
+import { rounded, roundStep } from "../elements/axis.js";
+import { element, setText } from "../elements/elements.js";
 import { figureText } from "../elements/figures.js";
 import { drawn, followDrag, kKeys, place } from "../elements/shapes.js";
 import { texts } from "../texts.js";
@@ -8,14 +10,26 @@ import { texts } from "../texts.js";
 export const kLimits = ["low_alarm", "low_warning", "high_warning", "high_alarm"];
 const kSteps = 200;  // steps of a key or a dragged pixel per height of the chart
 const kLargeStep = 10;
+const kTextPx = 13;  // least distance of two labels
+const kOuter = { low_warning: "low_alarm", high_warning: "high_alarm" };
 
-// A round step for a range: 1, 2 or 5 times a power of ten.
-function stepOf(span) {
-  const raw = span / kSteps, power = 10 ** Math.floor(Math.log10(raw));
-  return [1, 2, 5, 10].find((one) => one * power >= raw) * power;
+const stepOf = (span) => roundStep(span / kSteps);
+
+// A rectangle between two heights, as far as it is in the plot.
+function rectangle({ height }, width, ...ends) {
+  const [top, bottom] = ends.map((y) => Math.min(height, Math.max(0, y))).sort((one, other) => one - other);
+  return { x: 0, width, y: top, height: bottom - top };
 }
 
-const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(10));
+// Places labels of limits right of the plot, one below the other.
+function spread(labels, width) {
+  let free = -Infinity;
+  for (const { text, y } of labels.sort((one, other) => one.y - other.y)) {
+    const at = Math.max(y, free);
+    place(text, { x: width + 6, y: at + 4 });
+    free = at + kTextPx;
+  }
+}
 
 export class LimitLines {
   #lines = new Map();  // lines by alarm and limit
@@ -51,44 +65,49 @@ export class LimitLines {
       }));
   }
 
-  // Values that a chart must include.
+  // Values that the chart includes.
   get values() {
     return (this.alarms ?? []).flatMap((alarm) => kLimits.map((name) => this.recipe.limit(alarm, name)))
       .filter((value) => value !== null);
   }
 
-  scale(measured) {
-    return this.#held ?? measured;
+  // The chart's axis during a drag, in which it stays; null: none is dragged.
+  get held() {
+    return this.#held;
   }
 
-  draw(scale, width) {
-    if (!scale) return;
-    place(this.svg, { viewBox: `0 0 ${width} ${scale.height}` });
-    for (const alarm of this.alarms ?? []) {
-      for (const name of kLimits) this.#drawOne(alarm, name, scale, width);
-    }
-    this.drawn = scale;
+  draw(axis, width) {
+    if (!axis) return;
+    place(this.svg, { viewBox: `0 0 ${width} ${axis.height}` });
+    const labels = (this.alarms ?? []).flatMap((alarm) =>
+      kLimits.flatMap((name) => this.#drawOne(alarm, name, axis, width) ?? []));
+    spread(labels, width);
+    this.drawn = axis;
   }
 
-  #drawOne(alarm, name, scale, width) {
+  // Returns the label and its place; nothing without a limit.
+  #drawOne(alarm, name, axis, width) {
     const value = this.recipe.limit(alarm, name), key = `${alarm.alarm} ${name}`;
     const shapes = this.#lines.get(key) ?? this.#add(alarm, name, key);
     place(shapes.root, { visibility: value === null ? "hidden" : "visible" });
-    if (value === null) return;
-    const back = this.recipe.limit(alarm, "hysteresis") * (name.startsWith("low") ? 1 : -1);
-    const y = scale.y(value), end = scale.y(value + back);
-    place(shapes.band, { x: 0, width, y: Math.min(y, end), height: Math.abs(end - y) });
+    if (value === null) return null;
+    const isLow = name.startsWith("low"), y = axis.y(value), edge = isLow ? axis.height : 0;
+    const outer = kOuter[name] ? this.recipe.limit(alarm, kOuter[name]) : null;
+    const back = this.recipe.limit(alarm, "hysteresis") * (isLow ? 1 : -1);
+    place(shapes.band, rectangle(axis, width, y, outer === null ? edge : axis.y(outer)));
+    place(shapes.back, rectangle(axis, width, y, axis.y(value + back)));
     for (const line of [shapes.line, shapes.grip]) place(line, { x1: 0, x2: width, y1: y, y2: y });
-    place(shapes.text, { x: width - 4, y: y - 3 });
     const words = `${texts.process[name]} ${figureText(value)} ${alarm.unit}`;
-    if (shapes.text.textContent !== words) shapes.text.textContent = words;
+    setText(shapes.text, figureText(value));
+    setText(shapes.title, words);
     place(shapes.root, { "aria-valuenow": value, "aria-valuetext": words,
-      "aria-valuemin": Math.min(scale.low, value), "aria-valuemax": Math.max(scale.high, value) });
+      "aria-valuemin": Math.min(axis.low, value), "aria-valuemax": Math.max(axis.high, value) });
+    return { text: shapes.text, y };
   }
 
   #add(alarm, name, key) {
-    const shapes = { band: drawn("rect"), line: drawn("line"), grip: drawn("line", { class: "grip" }),
-      text: drawn("text", { "text-anchor": "end" }) };
+    const shapes = { title: drawn("title"), band: drawn("rect", { class: "band" }), back: drawn("rect"),
+      line: drawn("line"), grip: drawn("line", { class: "grip" }), text: drawn("text") };
     shapes.root = drawn("g", { class: `limit ${name.endsWith("alarm") ? "alarm" : "warning"}`,
       "data-limit": key, "aria-label": texts.process.limitOf(texts.process[name], alarm.alarm),
       ...(this.mayChange ? { role: "slider", tabindex: 0, "aria-orientation": "vertical" }

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alarms, signals of the regions with their last ten minutes, their limits and outlines.
+// Alarms, and the regions with their signals, limits and outlines.
 import { command } from "../appliance/api.js";
-import { History } from "../appliance/history.js";
-import { chartCanvas, drawChart, scaleOf } from "../elements/chart.js";
 import { element, setText, table } from "../elements/elements.js";
-import { FigureTable, Keyed } from "../elements/figures.js";
+import { Keyed } from "../elements/figures.js";
 import { Trial } from "../system/trial.js";
 import { texts } from "../texts.js";
 import { AlarmHistory } from "./alarm_history.js";
-import { LimitLines } from "./limit_lines.js";
 import { RegionEditor } from "./region_editor.js";
-
-const kFirstSignal = "hot_spot_peak_temperature";
+import { RegionSignals } from "./region_signals.js";
 
 class Alarms {
   #rows = new Map();
@@ -60,61 +56,6 @@ class Alarms {
   }
 }
 
-class Region {
-  #history = null;  // history of the selected signal
-  #signals = new Set();
-
-  constructor(name, descriptions, recipe, mayChange) {
-    this.name = name;
-    this.descriptions = descriptions;
-    this.table = new FigureTable(descriptions);
-    this.table.root.setAttribute("aria-label", texts.region(name));
-    this.choice = element("select", { name: "signal" });
-    this.choice.addEventListener("change", () => this.#choose());
-    this.canvas = chartCanvas(texts.region(name));
-    this.limits = new LimitLines(recipe, mayChange);
-    recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
-    this.root = element("div", { "data-region": name }, element("h3", {}, texts.region(name)),
-      element("label", {}, `${texts.chartOf} `, this.choice),
-      element("div", { className: "strip" }, this.canvas, this.limits.svg), this.limits.fields,
-      this.table.root);
-  }
-
-  // Elements being dragged are not recreated.
-  #isEdited() {
-    return [this.limits.svg, this.limits.fields].some((part) => part.contains(document.activeElement));
-  }
-
-  #choose() {
-    if (this.choice.value && this.choice.value !== this.chosen) {
-      this.chosen = this.choice.value;
-      this.#history = new History({ region: this.name, figure: this.chosen });
-    }
-    this.limits.choose(this.name, this.choice.value);
-  }
-
-  show(region, now) {
-    this.table.show(region);
-    for (const [name, value] of Object.entries(region)) {
-      if (typeof value === "string") continue;
-      if (!this.#signals.has(name)) this.#addSignal(name);
-    }
-    this.#history.add(now, region[this.chosen]);
-    if (this.root.offsetParent === null) return; // not shown
-    this.#history.refresh(now);
-    const scale = this.limits.scale(scaleOf(this.canvas, this.#history, this.limits.values));
-    const unit = this.descriptions[this.chosen]?.unit ?? "";
-    drawChart(this.canvas, this.#history, this.chosen, unit, now, scale);
-    this.limits.draw(scale, this.canvas.clientWidth);
-  }
-
-  #addSignal(name) {
-    this.#signals.add(name);
-    this.choice.append(element("option", { value: name, selected: name === kFirstSignal }, name));
-    if (this.choice.value === name) this.#choose();
-  }
-}
-
 export class Process {
   // `mayChange`: the user may change limits and regions. `onChoice()`: another view is needed.
   constructor(root, faults, recipe, figures, mayChange, onChoice) {
@@ -127,7 +68,7 @@ export class Process {
     root.append(this.happened.root, this.editor.root, ...(mayChange ? [this.#makeTrial()] : []),
       this.none, list);
     this.regions = new Keyed(list, (name) =>
-      new Region(name, figures.regions ?? {}, this.recipe, mayChange));
+      new RegionSignals(name, figures.regions ?? {}, this.recipe, mayChange));
   }
 
   #makeTrial() {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signals of one region: the last ten minutes of one or two of them, the limits of the first, the values of all.
+import { History } from "../appliance/history.js";
+import { Chart } from "../elements/chart.js";
+import { element } from "../elements/elements.js";
+import { FigureTable } from "../elements/figures.js";
+import { texts } from "../texts.js";
+import { LimitLines } from "./limit_lines.js";
+
+const kFirstSignal = "hot_spot_peak_temperature";
+
+const option = (value, text, selected = false) => element("option", { value, selected }, text);
+
+export class RegionSignals {
+  #histories = new Map();  // histories of the chosen signals, in the order of the choices
+  #signals = new Set();
+
+  // `descriptions` of the signals; `mayChange`: the user may change limits.
+  constructor(name, descriptions, recipe, mayChange) {
+    Object.assign(this, { name, descriptions });
+    this.table = new FigureTable(descriptions);
+    this.table.root.setAttribute("aria-label", texts.region(name));
+    this.choice = element("select", { name: "signal" });
+    this.other = element("select", { name: "compared" }, option("", texts.process.nothing));
+    for (const choice of [this.choice, this.other]) choice.addEventListener("change", () => this.#choose());
+    this.limits = new LimitLines(recipe, mayChange);
+    recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
+    this.chart = new Chart(texts.region(name), this.limits.svg);
+    this.root = element("div", { "data-region": name }, element("h3", {}, texts.region(name)),
+      element("label", {}, `${texts.chartOf} `, this.choice), " ",
+      element("label", {}, `${texts.process.compared} `, this.other),
+      this.chart.root, this.limits.fields, this.table.root);
+  }
+
+  // Elements being dragged are not recreated.
+  #isEdited() {
+    return [this.limits.svg, this.limits.fields].some((part) => part.contains(document.activeElement));
+  }
+
+  #choose() {
+    const chosen = [this.choice.value, this.other.value].filter(Boolean);
+    this.#histories = new Map(chosen.map((figure) =>
+      [figure, this.#histories.get(figure) ?? new History({ region: this.name, figure })]));
+    this.limits.choose(this.name, this.choice.value);
+  }
+
+  show(region, now) {
+    this.table.show(region);
+    for (const [name, value] of Object.entries(region)) {
+      if (typeof value !== "string" && !this.#signals.has(name)) this.#addSignal(name);
+    }
+    for (const [figure, history] of this.#histories) history.add(now, region[figure]);
+    if (this.root.offsetParent === null) return; // not shown
+    const series = [...this.#histories].map(([figure, history]) => {
+      history.refresh(now);
+      return { history, name: figure, unit: this.descriptions[figure]?.unit ?? "" };
+    });
+    const axis = this.chart.draw(series, now, this.limits.values, this.limits.held);
+    this.limits.draw(axis, this.chart.width);
+  }
+
+  #addSignal(name) {
+    this.#signals.add(name);
+    this.choice.append(option(name, name, name === kFirstSignal));
+    this.other.append(option(name, name));
+    if (this.choice.value === name) this.#choose();
+  }
+}
