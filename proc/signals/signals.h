@@ -59,6 +59,7 @@ inline constexpr std::array kRequirements{
 /// The description of one signal.
 struct SignalInfo {
   std::string_view name;
+  std::string_view title;
   std::string_view unit;
   double scale;
   double minimum;
@@ -70,8 +71,9 @@ struct SignalInfo {
 
 inline constexpr auto kSignals = [] {
   using enum Requires;
-#define ORBWATCH_INFO(name, unit, scale, minimum, maximum, requirements, description) \
-  SignalInfo{#name, unit, scale, minimum, maximum, requirements, description, &Signals::name},
+#define ORBWATCH_INFO(name, title, unit, scale, minimum, maximum, requirements, description) \
+  SignalInfo{#name,   title,        unit,        scale,         minimum,                     \
+             maximum, requirements, description, &Signals::name},
   return std::array{ORBWATCH_SIGNALS(ORBWATCH_INFO)};
 #undef ORBWATCH_INFO
 }();

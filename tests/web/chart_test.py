@@ -210,7 +210,7 @@ class Charts(PageCase):
         self.choose("hot_spot_mean_temperature", "compared")
         eventually("two curves", lambda: self.drawn_colours() == [True, True])
         self.assertEqual(self.labels(".second"), [])  # one axis for one unit
-        self.assertIn("hot_spot_mean_temperature", self.browser.text(f"{CHART} .read .second"))
+        self.assertIn("Hot spot mean temperature", self.browser.text(f"{CHART} .read .second"))
         self.choose("hot_spot_width", "compared")
         eventually("an axis of its own", lambda: len(self.labels(".second")) >= 3)
         self.browser.keep_picture("chart-compared")

@@ -55,7 +55,7 @@ class RecipeOnThePage(PageCase):
 
     def drag_a_limit(self):
         """Drags the high warning of the width upwards; returns its new value on the page."""
-        Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
+        Select(self.find("[data-region=pool] [name=signal]")).select_by_value("hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
         self.find("[data-region=pool] .plot")
@@ -77,7 +77,7 @@ class RecipeOnThePage(PageCase):
         return value if value > above else None
 
     def test_a_limit_grips_on_its_whole_length(self):
-        Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
+        Select(self.find("[data-region=pool] [name=signal]")).select_by_value("hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
         self.find("[data-region=pool] .plot")

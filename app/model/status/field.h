@@ -37,6 +37,7 @@ inline constexpr Quantity kAge{"s", 0.001, 0, 2147483.647};
 struct FieldInfo : Quantity {
   std::string_view name;
   std::string_view description;
+  std::string_view title{};  ///< name for people; empty: none
 };
 
 /// One field of a `Part`. `get` is a member's pointer or a function of the part.
@@ -47,8 +48,9 @@ struct Field : FieldInfo {
 
 template <class Get>
 constexpr Field<Get> make_field(std::string_view name, const Quantity& quantity,
-                                std::string_view description, Get get) {
-  return {{quantity, name, description}, get};
+                                std::string_view description, Get get,
+                                std::string_view title = {}) {
+  return {{quantity, name, description, title}, get};
 }
 
 template <class Value>

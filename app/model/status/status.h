@@ -322,10 +322,11 @@ struct SignalOf {
 
 template <class Visit>
 constexpr void for_each_field(std::type_identity<RegionStatus>, Visit&& visit) {
-  visit(make_field("quality", kCode, "Reliability of the signals", &RegionStatus::quality));
+  visit(make_field("quality", kCode, "Reliability of the signals", &RegionStatus::quality,
+                   "Quality"));
   for (const signals::SignalInfo& info : signals::kSignals) {
     visit(make_field(info.name, {info.unit, info.scale, info.minimum, info.maximum},
-                     info.description, SignalOf{info.member}));
+                     info.description, SignalOf{info.member}, info.title));
   }
 }
 

@@ -49,7 +49,7 @@ RecipeAnswer recipe_answer(const MeasuredRecipe& recipe) {
   for (const signals::AlarmLimits& limits : recipe.alarms) {
     const signals::SignalInfo& signal = signals::kSignals[limits.signal];
     answer.alarms.push_back({answer.alarms.size() + 1, recipe.regions[limits.region].name,
-                             signal.name, signal.unit, limits});
+                             signal.name, signal.title, signal.unit, limits});
   }
   return answer;
 }

@@ -59,7 +59,7 @@ void visit(Visitor& v, SentRegion& region) {
 struct SentAlarm {
   std::size_t alarm = 0;
   std::string region;
-  std::string_view signal, unit;
+  std::string_view signal, title, unit;
   signals::AlarmLimits limits;
 };
 template <class Visitor>
@@ -67,6 +67,7 @@ void visit(Visitor& v, SentAlarm& alarm) {
   v.required("alarm", alarm.alarm, "Argument alarm of acknowledge_alarm");
   v.required("region", alarm.region, "Name of the region");
   v.required("signal", alarm.signal, "Name of the signal");
+  v.required("title", alarm.title, "Title of the signal, for people");
   v.required("unit", alarm.unit, "Unit of the signal");
   for (const signals::LimitInfo& limit : signals::kLimits) {
     v.required(limit.name, alarm.limits.*limit.value, "Limit in the unit; null: none");

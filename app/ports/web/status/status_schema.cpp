@@ -32,6 +32,7 @@ Json figure_schema(const FieldInfo& field) {
   } else {
     figure = {{"type", "number"}, {"nullable", true}};
   }
+  if (!field.title.empty()) figure["title"] = field.title;
   figure["description"] = field.description;
   if (!field.unit.empty()) figure["x-unit"] = field.unit;
   return figure;

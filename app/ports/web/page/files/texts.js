@@ -67,9 +67,8 @@ export const texts = {
   shareOf: (camera, other) => `Share of ${camera} beside ${other}`,
   coloursOf: (camera) => `Colours of ${camera}`,
   colourMap: "Colour map",
-  firstColour: (unit) => `from, ${unit === "degC" ? "°C" : unit}`,
-  lastColour: (unit) => `to, ${unit === "degC" ? "°C" : unit}`,
-  amount: (value, unit) => `${value} ${unit === "degC" ? "°C" : unit}`,
+  firstColour: (unit) => `from, ${unit}`,
+  lastColour: (unit) => `to, ${unit}`,
   pixel: ({ yaw, pitch, seen, intensity, temperature, distance, point }) => [
     yaw === null ? "beside the ball" : `yaw ${yaw.toFixed(2)}°, pitch ${pitch.toFixed(2)}°`,
     seen ? `${intensity.toFixed(0)} %` : "no camera sees this",
@@ -262,8 +261,7 @@ export const texts = {
   region: (name) => `Region ${name}`,
   noRegions: "The recipe measures no region.",
   chartOf: "Signal in the chart",
-  chart: (name, low, high, unit) =>
-    `${name} in the last ten minutes: ${low} to ${high}${unit ? " " + unit : ""}`,
+  chart: (name, low, high) => `${name} in the last ten minutes: ${low} to ${high}`,
   now: "now",
   fromTo: (low, high) => `${low} to ${high}`,
   process: {

@@ -75,6 +75,7 @@ TEST_F(ServedRecipe, HasLimitsAndRegionsInItsViews) {
   EXPECT_EQ(alarm["alarm"], 1);
   EXPECT_EQ(alarm["region"], "pool");
   EXPECT_EQ(alarm["signal"], signals::kSignals[3].name);
+  EXPECT_EQ(alarm["title"], "Hot spot area");
   EXPECT_EQ(alarm["high_alarm"], 30.5);
   EXPECT_TRUE(alarm["low_alarm"].is_null());
   EXPECT_EQ(alarm["hysteresis"], 0.5);

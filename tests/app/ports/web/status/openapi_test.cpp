@@ -81,5 +81,17 @@ TEST(OpenApi, CodesHaveNames) {
   EXPECT_EQ(proposal["x-enum-varnames"], Json::parse(R"(["none", "working", "ready", "refused"])"));
 }
 
+TEST(OpenApi, EachSignalHasATitleOfItsOwn) {
+  const Json all = described();
+  const Json& region =
+      all["components"]["schemas"]["Status"]["properties"]["regions"]["items"]["properties"];
+  std::set<std::string> titles;
+  for (const signals::SignalInfo& signal : signals::kSignals) {
+    titles.insert(region[std::string(signal.name)]["title"]);
+  }
+  EXPECT_EQ(titles.size(), signals::kSignals.size());
+  EXPECT_EQ(region["hot_spot_area_trend"]["title"], "Hot spot area, trend");
+}
+
 }  // namespace
 }  // namespace orbwatch::app::web

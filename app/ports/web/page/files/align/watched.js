@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drift of an alignment, focus and cleanness of the ball, over time.
 import { History } from "../appliance/history.js";
+import { amountText, figureText } from "../elements/amounts.js";
 import { Chart } from "../elements/chart.js";
 import { element, setText } from "../elements/elements.js";
-import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
 // Level figure by measured figure.
@@ -43,7 +43,7 @@ export class Watched {
       figureText(camera.outline_offset), camera.outline_offset !== null));
     for (const [name, judge] of Object.entries(kFigures)) {
       const { unit = "" } = this.descriptions[name] ?? {}, { now: said, chart } = this.parts[name];
-      const value = camera[name] === null ? texts.watched.notKnown : `${figureText(camera[name])} ${unit}`;
+      const value = camera[name] === null ? texts.watched.notKnown : amountText(camera[name], unit);
       setText(said, texts.watched.now(texts.watched[name], value, camera[`${judge}_text`]));
       this.#histories[name].refresh(now);
       chart.draw([{ history: this.#histories[name], name: texts.watched[name], unit }], now);

@@ -9,10 +9,11 @@ function described(figure) {
   const hasEnd = unit && description.endsWith(end);
   const codes = Object.fromEntries(
     (figure["x-enum-varnames"] ?? []).map((name, n) => [name, figure.enum[n]]));
-  return { unit, description: hasEnd ? description.slice(0, -end.length) : description, codes };
+  return { title: figure.title ?? "", unit, description: hasEnd ? description.slice(0, -end.length) : description, codes };
 }
 
-// Descriptions by kind of component ("system", "cameras"), then by name: {description, unit, codes}.
+// Descriptions by kind of component ("system", "cameras"), then by name: {title, description, unit, codes}; only
+// signals have titles.
 export async function describeFigures() {
   const answer = await fetch("api/v1/openapi.json");
   if (!answer.ok) throw new Error(`status ${answer.status}`);

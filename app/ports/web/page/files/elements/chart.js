@@ -3,11 +3,11 @@
 // and curve.js it has 12 kB; dygraph.min.js of libjs-dygraphs 2.2.1 has 131 kB, without limits that are dragged.
 import { kHistoryMs } from "../appliance/history.js";
 import { texts } from "../texts.js";
+import { amountText, figureText, unitSymbol, withUnit } from "./amounts.js";
 import { timeTicks, ValueAxis } from "./axis.js";
 import { secondText, wallTime } from "./clock.js";
 import { freshBrush, pointAt, pointsOf, strokeCurve, valuesOf } from "./curve.js";
 import { element, setText } from "./elements.js";
-import { figureText } from "./figures.js";
 import { drawn, place } from "./shapes.js";
 
 const kAxisPx = 56;    // width of the labels of an axis, or of limits
@@ -31,7 +31,7 @@ function beyond(limits, measured) {
 function amount(point, unit) {
   if (!point) return figureText(null);
   const [low, high] = [point.low, point.high].map((value) => figureText(value));
-  return `${low === high ? low : texts.fromTo(low, high)} ${unit}`.trim();
+  return withUnit(low === high ? low : texts.fromTo(low, high), unit);
 }
 
 export class Chart {
@@ -101,7 +101,7 @@ export class Chart {
         if (n === 0) line({ x1: 0, x2: width, y1: y, y2: y });
         label(x, y + 4, anchor, text, kSeries[n]);
       }
-      if (axis) label(x, -8, anchor, unit, kSeries[n]);
+      if (axis) label(x, -8, anchor, unitSymbol(unit), kSeries[n]);
     });
     for (const { x, text } of timeTicks(width, kHistoryMs, wallTime(now))) {
       const at = Math.round(x);
@@ -128,7 +128,7 @@ export class Chart {
 
   #describe({ name, unit }, values) {
     this.canvas.setAttribute("aria-label", values.length === 0 ? texts.chartEmpty(name)
-      : texts.chart(name, figureText(Math.min(...values)), figureText(Math.max(...values)), unit));
+      : texts.chart(name, figureText(Math.min(...values)), amountText(Math.max(...values), unit)));
   }
 
   #point({ clientX }) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of figures that are updated in place.
 import { texts } from "../texts.js";
+import { figureText, unitSymbol } from "./amounts.js";
 import { element, setText, table } from "./elements.js";
 
-export function figureText(value, words) {
-  if (words !== undefined) return words;
-  if (value === null || value === undefined) return "–";
-  if (typeof value !== "number") return String(value);
-  return Number.isInteger(value) ? String(value) : value.toPrecision(4);
-}
+// The title of a figure with its identifier beside it; without a title only that.
+export const titled = (name, { title } = {}) =>
+  (title ? [title, " ", element("code", { className: "quiet" }, name)] : [name]);
+
+// The same as one text.
+export const titleText = (name, { title } = {}) => (title ? `${title} (${name})` : name);
 
 // Table of one component: {name: value}, with texts of codes as {name_text: text}.
 export class FigureTable {
@@ -32,8 +33,8 @@ export class FigureTable {
   #addRow(name) {
     const about = this.descriptions[name] ?? {};
     const value = element("td", { className: "figure" });
-    this.body.append(element("tr", {}, element("th", { scope: "row" }, name), value,
-      element("td", {}, about.unit ?? ""), element("td", {}, about.description ?? "")));
+    this.body.append(element("tr", {}, element("th", { scope: "row" }, ...titled(name, about)), value,
+      element("td", {}, unitSymbol(about.unit ?? "")), element("td", {}, about.description ?? "")));
     this.#rows.set(name, value);
     return value;
   }

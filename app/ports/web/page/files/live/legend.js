@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meaning of the colours of one-channel cameras, changed by users who may command, for all users.
 import { NewestCommand } from "../appliance/newest_command.js";
+import { amountText, unitSymbol } from "../elements/amounts.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -33,8 +34,8 @@ class SourceLegend {
     this.form = element("details", { className: "colours" },
       element("summary", {}, texts.coloursOf(this.camera)),
       element("label", {}, texts.colourMap, " ", this.map), " ",
-      element("label", {}, texts.firstColour(this.unit), " ", this.ends[0]), " ",
-      element("label", {}, texts.lastColour(this.unit), " ", this.ends[1]));
+      element("label", {}, texts.firstColour(unitSymbol(this.unit)), " ", this.ends[0]), " ",
+      element("label", {}, texts.lastColour(unitSymbol(this.unit)), " ", this.ends[1]));
     return this.form;
   }
 
@@ -52,8 +53,8 @@ class SourceLegend {
   follow({ colour_map: name, range }) {
     const { stops } = this.maps.find((map) => map.name === name);
     this.shown = { camera: this.camera, unit: this.unit, range, stops };
-    setText(this.first, `${this.camera} ${texts.amount(range[0], this.unit)}`);
-    setText(this.last, texts.amount(range[1], this.unit));
+    setText(this.first, `${this.camera} ${amountText(range[0], this.unit)}`);
+    setText(this.last, amountText(range[1], this.unit));
     if (this.ramp.dataset.map !== name) {
       this.ramp.dataset.map = name;
       this.ramp.style.background = `linear-gradient(to right, ${stops.join(", ")})`;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The displayed picture as a file, with its name and the legend of its colours.
+import { amountText } from "../elements/amounts.js";
 import { element } from "../elements/elements.js";
-import { texts } from "../texts.js";
 
 const kLine = 26, kMargin = 8, kRamp = 120; // px
 const kQuality = 0.95;
@@ -12,13 +12,13 @@ function addText(context, text, x, y) {
 }
 
 function addLegend(context, { camera, range, unit, stops }, y) {
-  let x = addText(context, `${camera} ${texts.amount(range[0], unit)}`, kMargin, y);
+  let x = addText(context, `${camera} ${amountText(range[0], unit)}`, kMargin, y);
   const ramp = context.createLinearGradient(x, 0, x + kRamp, 0);
   stops.forEach((stop, n) => ramp.addColorStop(n / (stops.length - 1), stop));
   context.fillStyle = ramp;
   context.fillRect(x, y - kLine / 4, kRamp, kLine / 2);
   context.fillStyle = "#fff";
-  x = addText(context, texts.amount(range[1], unit), x + kRamp + kMargin, y);
+  x = addText(context, amountText(range[1], unit), x + kRamp + kMargin, y);
 }
 
 // `legends`: see Legend.

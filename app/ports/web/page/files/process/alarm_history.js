@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events of alarms, kept by the appliance.
+import { amountText } from "../elements/amounts.js";
 import { element, table } from "../elements/elements.js";
-import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
 export class AlarmHistory {
@@ -32,14 +32,10 @@ export class AlarmHistory {
     this.none.hidden = events.length > 0;
     this.table.hidden = events.length === 0;
     this.body.replaceChildren(...events.map((event) => {
-      const cells = [event.event_text, event.level_text, this.#amount(event.value, event.unit),
-        this.#amount(event.limit, event.unit), event.by ?? ""];
+      const cells = [event.event_text, event.level_text, amountText(event.value, event.unit),
+        amountText(event.limit, event.unit), event.by ?? ""];
       return element("tr", {}, element("td", {}, new Date(event.time).toLocaleString()),
         element("th", { scope: "row" }, event.name), ...cells.map((text) => element("td", {}, text)));
     }));
-  }
-
-  #amount(value, unit) {
-    return value === null ? "–" : `${figureText(value)} ${unit}`.trim();
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limits of alarms in a chart, as lines that are dragged or moved by keys, with the ranges beyond them shaded; and
 // typed below it.
+import { amountText, figureText, unitSymbol } from "../elements/amounts.js";
 import { rounded, roundStep } from "../elements/axis.js";
 import { element, setText } from "../elements/elements.js";
-import { figureText } from "../elements/figures.js";
 import { drawn, followDrag, kKeys, place } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 
@@ -52,7 +52,7 @@ export class LimitLines {
 
   #fieldsOf(alarm) {
     const names = [...kLimits, "hysteresis"];
-    return element("fieldset", {}, element("legend", {}, texts.process.limitsOf(alarm.alarm, alarm.unit)),
+    return element("fieldset", {}, element("legend", {}, texts.process.limitsOf(alarm.alarm, unitSymbol(alarm.unit))),
       ...names.map((name) => {
         const input = element("input", { type: "number", step: "any", name,
           value: this.recipe.limit(alarm, name) ?? "", readOnly: !this.mayChange });
@@ -97,7 +97,7 @@ export class LimitLines {
     place(shapes.band, rectangle(axis, width, y, outer === null ? edge : axis.y(outer)));
     place(shapes.back, rectangle(axis, width, y, axis.y(value + back)));
     for (const line of [shapes.line, shapes.grip]) place(line, { x1: 0, x2: width, y1: y, y2: y });
-    const words = `${texts.process[name]} ${figureText(value)} ${alarm.unit}`;
+    const words = `${texts.process[name]} ${amountText(value, alarm.unit)}`;
     setText(shapes.text, figureText(value));
     setText(shapes.title, words);
     place(shapes.root, { "aria-valuenow": value, "aria-valuetext": words,

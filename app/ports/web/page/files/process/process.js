@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Alarms, and the regions with their signals, limits and outlines.
 import { command } from "../appliance/api.js";
+import { amountText } from "../elements/amounts.js";
 import { element, setText, table } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { Trial } from "../system/trial.js";
@@ -12,7 +13,9 @@ import { RegionSignals } from "./region_signals.js";
 class Alarms {
   #rows = new Map();
 
-  constructor(root) {
+  // `descriptions` of the signals.
+  constructor(root, descriptions) {
+    this.descriptions = descriptions;
     this.said = element("p", { className: "wrong", role: "alert" });
     this.none = element("p", {}, texts.noAlarms);
     const titles = [texts.alarm, texts.state, texts.level, texts.value, texts.acknowledge];
@@ -32,7 +35,7 @@ class Alarms {
       const row = this.#rows.get(alarm.name) ?? this.#addRow(alarm.name, index + 1);
       setText(row.state, alarm.state_text);
       setText(row.level, alarm.level_text);
-      setText(row.value, alarm.value === null ? "–" : alarm.value.toPrecision(4));
+      setText(row.value, amountText(alarm.value, this.descriptions[alarm.signal_text]?.unit ?? ""));
       row.root.classList.toggle("wrong", alarm.level !== 0);
     });
   }
@@ -60,7 +63,7 @@ export class Process {
   // `mayChange`: the user may change limits and regions. `onChoice()`: another view is needed.
   constructor(root, faults, recipe, figures, mayChange, onChoice) {
     Object.assign(this, { root, recipe });
-    this.alarms = new Alarms(root);
+    this.alarms = new Alarms(root, figures.regions ?? {});
     this.none = element("p", {}, texts.noRegions);
     const list = element("div");
     this.editor = new RegionEditor(this.recipe, faults, mayChange, onChoice);

@@ -3,7 +3,7 @@
 import { History } from "../appliance/history.js";
 import { Chart } from "../elements/chart.js";
 import { element } from "../elements/elements.js";
-import { FigureTable } from "../elements/figures.js";
+import { FigureTable, titleText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 import { LimitLines } from "./limit_lines.js";
 
@@ -53,7 +53,8 @@ export class RegionSignals {
     if (this.root.offsetParent === null) return; // not shown
     const series = [...this.#histories].map(([figure, history]) => {
       history.refresh(now);
-      return { history, name: figure, unit: this.descriptions[figure]?.unit ?? "" };
+      const { title, unit = "" } = this.descriptions[figure] ?? {};
+      return { history, name: title || figure, unit };
     });
     const axis = this.chart.draw(series, now, this.limits.values, this.limits.held);
     this.limits.draw(axis, this.chart.width);
@@ -61,8 +62,9 @@ export class RegionSignals {
 
   #addSignal(name) {
     this.#signals.add(name);
-    this.choice.append(option(name, name, name === kFirstSignal));
-    this.other.append(option(name, name));
+    const text = titleText(name, this.descriptions[name]);
+    this.choice.append(option(name, text, name === kFirstSignal));
+    this.other.append(option(name, text));
     if (this.choice.value === name) this.#choose();
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of the interfaces, updated while shown: registers, clients, topics.
+import { figureText } from "../elements/amounts.js";
 import { element, field, setText, table } from "../elements/elements.js";
-import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
 const kAgainMs = 2000;

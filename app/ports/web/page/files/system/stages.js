@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Processor time of a frame set by stage, compared with its deadline.
+import { figureText } from "../elements/amounts.js";
 import { element, setText, table } from "../elements/elements.js";
-import { figureText } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
 const kColumns = ["cpu_ms", "cpu_p50_ms", "cpu_p99_ms"];
