@@ -112,7 +112,7 @@ class Page(PageCase):
             "not acknowledged" in self.browser.text("#notices a[href='#/process']")
             and self.browser.title.startswith("(")
             and "(" in self.browser.text("nav a[href='#/process']")))
-        for button in self.browser.find_elements(By.CSS_SELECTOR, "#process > button"):
+        for button in self.browser.find_elements(By.CSS_SELECTOR, "#alarms > button"):
             button.click()
         eventually("the command was carried out",
                    lambda: self.appliance.status()["web"]["commands_done"] == done + 1)

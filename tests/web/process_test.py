@@ -32,6 +32,8 @@ class RecipeOnThePage(PageCase):
         eventually("regions over a picture", lambda: self.browser.execute_script(
             "return document.querySelectorAll('#regions polyline').length > 1"
             " && document.querySelector('#regions canvas').dataset.number"))
+        self.find("#regions summary").click()
+        eventually("handles", lambda: self.browser.find_elements(By.CSS_SELECTOR, "#regions [data-corner]"))
 
     def recipe(self):
         """Recipe in force, from the interface."""

@@ -11,13 +11,13 @@ const kAlarmLevels = [1, 4, 5], kWarningLevels = [2, 3];
 const kMoved = [2, 3], kNotRegistered = 4;
 const kNotAligned = 2;
 
-function severity({ level, announced }) {
+export function severity({ level, announced }) {
   const isAmong = (levels) => levels.includes(level) || levels.includes(announced);
   return isAmong(kAlarmLevels) ? 2 : isAmong(kWarningLevels) ? 1 : 0;
 }
 
 // Alarms that stand or are not acknowledged, the worst first.
-function raisedAlarms(alarms) {
+export function raisedAlarms(alarms) {
   return alarms.filter(({ state }) => state !== kNormal && state !== kSuppressed)
     .sort((one, other) => severity(other) - severity(one));
 }

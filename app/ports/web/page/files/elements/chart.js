@@ -160,7 +160,8 @@ export class Chart {
       if (!shown.hidden) setText(shown, `${series[n].name} ${amount(points[n], series[n].unit)}`);
     });
     const stated = this.read.filter(({ hidden }) => !hidden).map(({ textContent }) => textContent);
-    place(this.canvas, { "aria-valuenow": Math.round(-age / 1000), "aria-valuetext": `${when}: ${stated.join("; ")}` });
+    place(this.canvas, { "aria-valuenow": Math.round(-age / 1000),
+      "aria-valuetext": `${when}: ${stated.join("; ")}` });
     const x = width * (1 - age / kHistoryMs);
     this.cursor.replaceChildren(...(this.#age === null ? [] : [
       drawn("line", { x1: x, x2: x, y1: 0, y2: height }),

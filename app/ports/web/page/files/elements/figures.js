@@ -18,6 +18,7 @@ export class FigureTable {
   constructor(descriptions) {
     this.descriptions = descriptions;
     const { root, body } = table([texts.signal, texts.value, texts.unit, texts.meaning]);
+    root.classList.add("figures");
     this.root = root;
     this.body = body;
   }

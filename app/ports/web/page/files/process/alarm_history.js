@@ -9,11 +9,12 @@ export class AlarmHistory {
 
   constructor() {
     this.none = element("p", {}, texts.noAlarmEvents);
-    const titles = [texts.when, texts.alarm, texts.event, texts.level, texts.value, texts.limit, texts.who];
-    const { root: scrolled, body } = table(titles, texts.alarmHistory);
+    this.titles = [texts.when, texts.alarm, texts.event, texts.level, texts.value, texts.limit, texts.who];
+    const { root: scrolled, body } = table(this.titles, texts.alarmHistory);
     this.table = scrolled;
     this.body = body;
-    this.root = element("section", { id: "alarm-history" }, element("h3", {}, texts.alarmHistory),
+    this.table.classList.add("cards");
+    this.root = element("details", { id: "alarm-history" }, element("summary", {}, texts.alarmHistory),
       this.none, this.table);
     this.#show([]);
   }
@@ -32,10 +33,9 @@ export class AlarmHistory {
     this.none.hidden = events.length > 0;
     this.table.hidden = events.length === 0;
     this.body.replaceChildren(...events.map((event) => {
-      const cells = [event.event_text, event.level_text, amountText(event.value, event.unit),
-        amountText(event.limit, event.unit), event.by ?? ""];
-      return element("tr", {}, element("td", {}, new Date(event.time).toLocaleString()),
-        element("th", { scope: "row" }, event.name), ...cells.map((text) => element("td", {}, text)));
+      const cells = [new Date(event.time).toLocaleString(), event.name, event.event_text, event.level_text,
+        amountText(event.value, event.unit), amountText(event.limit, event.unit), event.by ?? ""];
+      return element("tr", {}, ...cells.map((text, n) => element("td", { "data-title": this.titles[n] }, text)));
     }));
   }
 }

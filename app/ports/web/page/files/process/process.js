@@ -1,77 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alarms, and the regions with their signals, limits and outlines.
-import { command } from "../appliance/api.js";
-import { amountText } from "../elements/amounts.js";
-import { element, setText, table } from "../elements/elements.js";
+// The process at one glance: the view with its regions, key figures, alarms, charts; then changes of the recipe and
+// the events of alarms.
+import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { Trial } from "../system/trial.js";
 import { texts } from "../texts.js";
 import { AlarmHistory } from "./alarm_history.js";
+import { Alarms, worstOf } from "./alarms.js";
+import { KeyFigures } from "./key_figures.js";
 import { RegionEditor } from "./region_editor.js";
 import { RegionSignals } from "./region_signals.js";
-
-class Alarms {
-  #rows = new Map();
-
-  // `descriptions` of the signals.
-  constructor(root, descriptions) {
-    this.descriptions = descriptions;
-    this.said = element("p", { className: "wrong", role: "alert" });
-    this.none = element("p", {}, texts.noAlarms);
-    const titles = [texts.alarm, texts.state, texts.level, texts.value, texts.acknowledge];
-    const { root: scrolled, body } = table(titles, texts.alarms);
-    this.table = scrolled;
-    this.table.hidden = true;
-    this.body = body;
-    const all = element("button", { type: "button" }, texts.acknowledgeAll);
-    all.addEventListener("click", () => this.#acknowledge(0));
-    root.append(element("h3", {}, texts.alarms), this.said, this.none, this.table, all);
-  }
-
-  show(alarms) {
-    this.none.hidden = alarms.length > 0;
-    this.table.hidden = alarms.length === 0;
-    alarms.forEach((alarm, index) => {
-      const row = this.#rows.get(alarm.name) ?? this.#addRow(alarm.name, index + 1);
-      setText(row.state, alarm.state_text);
-      setText(row.level, alarm.level_text);
-      setText(row.value, amountText(alarm.value, this.descriptions[alarm.signal_text]?.unit ?? ""));
-      row.root.classList.toggle("wrong", alarm.level !== 0);
-    });
-  }
-
-  #addRow(name, number) {
-    const cell = (className = "") => element("td", { className });
-    const row = { state: cell(), level: cell(), value: cell("figure") };
-    const button = element("button", { type: "button" }, texts.acknowledge);
-    button.setAttribute("aria-label", `${texts.acknowledge} ${name}`);
-    button.addEventListener("click", () => this.#acknowledge(number));
-    row.root = element("tr", {}, element("th", { scope: "row" }, name), row.state, row.level,
-      row.value, element("td", {}, button));
-    this.body.append(row.root);
-    this.#rows.set(name, row);
-    return row;
-  }
-
-  async #acknowledge(number) {
-    const why = await command("acknowledge_alarm", { alarm: number });
-    setText(this.said, why ? texts.refused(why) : "");
-  }
-}
 
 export class Process {
   // `mayChange`: the user may change limits and regions. `onChoice()`: another view is needed.
   constructor(root, faults, recipe, figures, mayChange, onChoice) {
     Object.assign(this, { root, recipe });
-    this.alarms = new Alarms(root, figures.regions ?? {});
+    const descriptions = figures.regions ?? {};
     this.none = element("p", {}, texts.noRegions);
-    const list = element("div");
+    const charts = element("div", { id: "charts" });
     this.editor = new RegionEditor(this.recipe, faults, mayChange, onChoice);
+    this.alarms = new Alarms(descriptions);
     this.happened = new AlarmHistory();
-    root.append(this.happened.root, this.editor.root, ...(mayChange ? [this.#makeTrial()] : []),
-      this.none, list);
-    this.regions = new Keyed(list, (name) =>
-      new RegionSignals(name, figures.regions ?? {}, this.recipe, mayChange));
+    this.regions = new Keyed(charts, (name) =>
+      new RegionSignals(name, descriptions, this.recipe, mayChange));
+    this.keys = new KeyFigures(descriptions, (region, signal) => this.regions.get(region).choose(signal));
+    root.append(element("div", { className: "glance" }, this.editor.root,
+      element("div", {}, this.keys.root, this.alarms.root)), this.none, charts,
+      ...(mayChange ? [this.#makeTrial()] : []), this.happened.root);
   }
 
   #makeTrial() {
@@ -97,9 +52,12 @@ export class Process {
   }
 
   status(status, now) {
-    this.alarms.show(status.alarms ?? []);
+    const { alarms = [], regions = [] } = status;
+    this.alarms.show(alarms);
     if (this.isShown) this.happened.refresh(status.web.alarm_events);
-    const regions = status.regions ?? [];
+    this.keys.show(regions, alarms, now);
+    this.editor.mark(regions.map(({ name }, index) =>
+      [name, worstOf(alarms.filter(({ region }) => region === index))]));
     this.regions.keep(regions.map(({ name }) => name));
     for (const region of regions) this.regions.get(region.name).show(region, now);
     this.none.hidden = this.regions.size > 0;

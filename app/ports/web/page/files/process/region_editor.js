@@ -26,6 +26,8 @@ export class RegionEditor {
   #settle = 0;
   #handles = [];   // handles of the corners
   #middles = [];   // handles of the edges, each after its corner
+  #marks = new Map(); // classes of regions with alarms
+  #markKey = "";
   #corner = 0;     // index of the last touched corner
   #pictures = new NewestPicture((picture, { head, received }) => {
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
@@ -57,14 +59,23 @@ export class RegionEditor {
     const seen = element("div", { className: "picture" }, this.canvas, this.svg);
     this.freshness = new Freshness(seen);
     setInterval(() => this.freshness.tick(faults.ofView(this.view.value)), 250);
-    this.root = element("section", { id: "regions" }, element("h3", {}, texts.process.regions),
-      element("p", {}, element("label", {}, texts.process.view, " ", this.view), " ",
-        ...(mayChange ? [element("label", {}, texts.process.region, " ", this.choice), " ",
-          this.cornerRemoval, " ", this.removal] : [])),
-      element("figure", { className: "ball" }, seen, element("figcaption", {}, this.freshness.age)),
-      ...(mayChange ? [this.said, element("p", {}, texts.process.help), this.#makeForm()] : []), this.refused);
+    this.root = element("section", { id: "regions" },
+      element("h3", { className: "spoken" }, texts.process.regions),
+      element("figure", { className: "ball" }, seen, element("figcaption", {}, this.freshness.age,
+        element("label", {}, texts.process.view, " ", this.view))),
+      ...(mayChange ? [this.#makeTools(), this.said] : []), this.refused);
     recipe.addEventListener("change", () => this.#refresh());
     new ResizeObserver(() => this.#draw()).observe(this.svg);
+  }
+
+  // Folded until regions are to be changed: only then the view has handles.
+  #makeTools() {
+    this.tools = element("details", {}, element("summary", {}, texts.process.change),
+      element("p", { className: "buttons" }, element("label", {}, texts.process.region, " ", this.choice),
+        this.cornerRemoval, this.removal),
+      element("p", {}, texts.process.help), this.#makeForm());
+    this.tools.addEventListener("toggle", () => this.#draw());
+    return this.tools;
   }
 
   #makeForm() {
@@ -82,6 +93,20 @@ export class RegionEditor {
     return this.recipe.regions.find(({ name }) => name === this.choice.value);
   }
 
+  // The region that is being changed.
+  get #chosen() {
+    return this.tools?.open ? this.#region : null;
+  }
+
+  // Colours the outlines; `marks`: [name, class] of each region.
+  mark(marks) {
+    const key = JSON.stringify(marks);
+    if (key === this.#markKey) return;
+    this.#markKey = key;
+    this.#marks = new Map(marks);
+    this.#draw();
+  }
+
   picture(message) {
     if (message.head.name === this.view.value) this.#pictures.show(message);
   }
@@ -93,6 +118,7 @@ export class RegionEditor {
       this.canvas.width = view.width;
       this.canvas.height = view.height;
       this.canvas.setAttribute("aria-label", texts.pictureOf(view.name));
+      this.root.style.setProperty("--ratio", view.width / view.height);
       place(this.svg, { viewBox: `-0.5 -0.5 ${view.width} ${view.height}` });
     }
     this.#listRegions();
@@ -128,14 +154,14 @@ export class RegionEditor {
 
   #draw() {
     const shown = this.recipe.regions.filter(({ view }) => view === this.view.value);
-    const chosen = this.mayChange ? this.#region : null;
+    const chosen = this.#chosen;
     this.lines.replaceChildren(...shown.flatMap((region) => {
       const isChanging = this.#pixels && region.name === this.#changing.name;
       const lines = isChanging ? [[...this.#pixels, this.#pixels[0]]] : region.lines;
       const at = lines[0]?.[0] ?? [0, 0];
       const text = drawn("text", { x: at[0] + 6 * this.#scale(), y: at[1] + 16 * this.#scale(),
-        "font-size": 14 * this.#scale() }, region.name);
-      const kind = region.name === chosen?.name ? "limb" : "edges";
+        "font-size": 14 * this.#scale(), class: this.#marks.get(region.name) ?? "" }, region.name);
+      const kind = `${region.name === chosen?.name ? "limb" : "edges"} ${this.#marks.get(region.name) ?? ""}`;
       return [...lines.map((line) => drawn("polyline", { points: pointsText(line), class: kind })), text];
     }));
     const pixels = chosen ? this.#cornersOf(chosen) : [];
@@ -258,7 +284,7 @@ export class RegionEditor {
   }
 
   #span(event) {
-    const region = this.mayChange ? this.#region : null;
+    const region = this.#chosen;
     if (event.button !== 0 || !region || !this.#isDrawable(region)) return;
     const from = pixelAt(this.svg, this.canvas, event);
     this.#changing = region;

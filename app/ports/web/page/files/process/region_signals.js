@@ -20,16 +20,24 @@ export class RegionSignals {
     Object.assign(this, { name, descriptions });
     this.table = new FigureTable(descriptions);
     this.table.root.setAttribute("aria-label", texts.region(name));
-    this.choice = element("select", { name: "signal" });
-    this.other = element("select", { name: "compared" }, option("", texts.process.nothing));
+    this.choice = element("select", { name: "signal", "aria-label": texts.chartOf });
+    this.other = element("select", { name: "compared", "aria-label": texts.process.compared },
+      option("", texts.process.compare));
     for (const choice of [this.choice, this.other]) choice.addEventListener("change", () => this.#choose());
     this.limits = new LimitLines(recipe, mayChange);
     recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
     this.chart = new Chart(texts.region(name), this.limits.svg);
-    this.root = element("div", { "data-region": name }, element("h3", {}, texts.region(name)),
-      element("label", {}, `${texts.chartOf} `, this.choice), " ",
-      element("label", {}, `${texts.process.compared} `, this.other),
-      this.chart.root, this.limits.fields, this.table.root);
+    this.typed = element("details", {}, element("summary", {}, texts.process.typed), this.limits.fields);
+    this.all = element("details", { className: "all" }, element("summary", {}, texts.process.allSignals),
+      this.table.root);
+    this.root = element("div", { "data-region": name }, element("div", { className: "head" },
+      element("h3", {}, texts.region(name)), this.choice, this.other),
+      this.chart.root, this.typed, this.all);
+  }
+
+  choose(signal) {
+    this.choice.value = signal;
+    this.#choose();
   }
 
   // Elements being dragged are not recreated.
@@ -42,10 +50,11 @@ export class RegionSignals {
     this.#histories = new Map(chosen.map((figure) =>
       [figure, this.#histories.get(figure) ?? new History({ region: this.name, figure })]));
     this.limits.choose(this.name, this.choice.value);
+    this.typed.hidden = this.limits.fields.children.length === 0;
   }
 
   show(region, now) {
-    this.table.show(region);
+    if (this.all.open) this.table.show(region);
     for (const [name, value] of Object.entries(region)) {
       if (typeof value !== "string" && !this.#signals.has(name)) this.#addSignal(name);
     }

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The process at one glance: on a desktop, a tablet and a phone.
+
+Folders: app/ports/web/page/files/process app/ports/web/page/files/elements
+"""
+
+import json
+import re
+import unittest
+import urllib.request
+
+from selenium.webdriver.common.by import By
+
+from appliance import PATIENCE_S, eventually
+from page_case import PageCase
+
+# Levels of alarms that are not warnings, and states that need nobody, by proc/signals/alarm.h.
+ALARM_LEVELS, WARNING_LEVELS, CALM_STATES = {1, 4, 5}, {2, 3}, {0, 6}
+
+
+class Glance(PageCase):
+    def show(self, width, height, page="process"):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+        self.browser.get(f"{self.appliance.address}#/{page}")
+        eventually("the page shows the state", lambda: "running" in self.browser.text("#condition"))
+
+    def show_process(self, width, height):
+        self.show(width, height)
+        eventually("view, key figures and charts", lambda: self.browser.execute_script("""
+            return document.querySelector('#regions canvas').dataset.number
+              && document.querySelector('#regions polyline') && document.querySelector('.key')
+              && document.querySelectorAll('#charts .plot .grid text').length > 0;"""))
+
+    def api(self, path):
+        with urllib.request.urlopen(f"{self.appliance.address}api/v1/{path}", timeout=PATIENCE_S) as answer:
+            return json.load(answer)
+
+    def boxes(self, selector):
+        """Left, top, right and bottom of the shown elements."""
+        return self.browser.execute_script("""
+            return [...document.querySelectorAll(arguments[0])].map((one) => one.getBoundingClientRect())
+              .filter(({ width }) => width > 0)
+              .map(({ left, top, right, bottom }) => [left, top, right, bottom]);""",
+            selector)
+
+    def expect_inside(self, width, height, *selectors):
+        for selector in selectors:
+            boxes = self.boxes(selector)
+            self.assertTrue(boxes, selector)
+            for box in boxes:
+                self.assertGreaterEqual(min(box[:2]), 0, f"{selector} {box}")
+                self.assertLessEqual(box[2], width, f"{selector} {box}")
+                self.assertLessEqual(box[3], height, f"{selector} {box}")
+
+    def test_view_key_figures_alarms_and_charts_need_no_scrolling(self):
+        self.show_process(1440, 900)
+        self.browser.keep_picture("glance")
+        self.expect_fits_its_width()
+        self.expect_inside(1440, 900, "#regions figure", ".key", "#alarms", "#charts .plot", "#charts .grid text")
+        hidden = self.browser.execute_script("""
+            const list = document.querySelector('#alarms ul');
+            return list.scrollHeight - list.clientHeight;""")
+        self.assertLessEqual(hidden, 0)
+        [view], keys, charts = self.boxes("#regions figure"), self.boxes(".key"), self.boxes("#charts .plot")
+        self.assertGreaterEqual(min(left for left, *_ in keys), view[2])
+        self.assertGreaterEqual(min(top for _, top, *_ in charts), view[3])
+
+    def test_a_tablet_shows_view_key_figures_and_alarms_at_once(self):
+        self.show_process(1024, 768)
+        self.browser.keep_picture("glance-tablet")
+        self.expect_fits_its_width()
+        self.expect_inside(1024, 768, "#regions figure", ".key", "#alarms")
+
+    def cut(self):
+        """Parts that are wider than they show, and values beyond the screen."""
+        return self.browser.execute_script("""
+            const width = document.documentElement.clientWidth;
+            return [...document.querySelectorAll('.figures, .cards, .key, #alarms, #alarms ul, .chart, td.figure')]
+              .filter((one) => one.checkVisibility())
+              .filter((one) => one.scrollWidth > one.clientWidth || one.getBoundingClientRect().right > width)
+              .map((one) => `${one.className} ${one.scrollWidth} ${one.clientWidth} ` +
+                one.textContent.slice(0, 50));""")
+
+    def open_all(self, page):
+        self.browser.execute_script(
+            "for (const one of document.querySelectorAll(`#${arguments[0]} details`)) one.open = true;", page)
+
+    def test_a_phone_cuts_no_value_off(self):
+        self.show_process(390, 844)
+        eventually("an event of an alarm", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "#alarm-history tbody tr"))
+        self.browser.keep_picture("glance-phone")
+        self.open_all("process")
+        eventually("all signals", lambda: len(self.boxes("#charts .figures td.figure")) > 100)
+        self.expect_fits_its_width()
+        self.assertEqual(self.cut(), [])
+        self.show(390, 844, "system")
+        eventually("figures", lambda: len(self.boxes("#system .figures td.figure")) > 10)
+        self.assertEqual(self.cut(), [])
+
+    def test_key_figures_are_the_signals_with_limits(self):
+        self.show_process(1440, 900)
+        recipe = self.api("recipe")
+        keys = {key.get_attribute("data-key"): key
+                for key in self.browser.find_elements(By.CSS_SELECTOR, ".key")}
+        self.assertEqual(set(keys), {f"{alarm['region']} {alarm['signal']}" for alarm in recipe["alarms"]})
+        for alarm in recipe["alarms"]:
+            name = f"{alarm['region']} {alarm['signal']}"
+            self.assertIn(alarm["title"], keys[name].text)
+            value = eventually("a value", lambda name=name: re.fullmatch(r"-?\d+(\.\d+)?", self.browser.text(
+                f"[data-key='{name}'] .value")))[0]
+            history = self.api(f"history?region={alarm['region']}&figure={alarm['signal']}")
+            measured = [one for side in ("low", "high") for one in history[side] if one is not None]
+            self.assertLessEqual(min(measured) - 1, float(value))
+            self.assertGreaterEqual(max(measured) + 1, float(value))
+            eventually("its spark line", lambda name=name: any(self.browser.execute_script("""
+                const canvas = document.querySelector(arguments[0]);
+                const copy = new OffscreenCanvas(canvas.width, canvas.height)
+                  .getContext('2d', { willReadFrequently: true });
+                copy.drawImage(canvas, 0, 0);
+                return [...copy.getImageData(0, 0, canvas.width, canvas.height).data];""",
+                f"[data-key='{name}'] canvas")))
+            keys[name].click()
+            self.assertEqual(self.browser.find_element(
+                By.CSS_SELECTOR, f"[data-region={alarm['region']}] [name=signal]").get_property("value"),
+                alarm["signal"])
+        self.assertEqual(self.browser.text("[data-key='pool hot_spot_width'] small"), "mm")
+        self.assertEqual(self.browser.text("[data-key='pool hot_spot_peak_temperature'] small"), "°C")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def expected_mark(self, alarms):
+        """Class of the worst alarm that is active or not acknowledged."""
+        levels = {level for alarm in alarms if alarm["state"] not in CALM_STATES
+                  for level in (alarm["level"], alarm["announced"])}
+        return "alarm" if levels & ALARM_LEVELS else "warning" if levels & WARNING_LEVELS else ""
+
+    def test_a_region_and_its_key_figure_have_the_colour_of_their_alarm(self):
+        self.show_process(1440, 900)
+
+        def marked():
+            alarms = self.api("status")["alarms"]
+            shown = self.browser.execute_script("""
+                const texts = [...document.querySelectorAll('#regions svg text')];
+                const of = (name) => texts.find(({ textContent }) => textContent === name).getAttribute('class');
+                return [of('pool'), of('surroundings'),
+                  ...[...document.querySelectorAll('.key')].map(({ className }) => className)];""")
+            own = [self.expected_mark([alarm]) for alarm in alarms]
+            return any(own) and shown == [self.expected_mark(alarms), "", *(f"key {mark}" for mark in own)]
+
+        eventually("the colours of the alarms", marked)
+        self.browser.keep_picture("glance-alarm")
+        colour = self.browser.execute_script("""
+            const line = document.querySelector('#regions polyline.warning, #regions polyline.alarm');
+            return line && getComputedStyle(line).stroke;""")
+        red, _, blue = (int(part) for part in re.findall(r"\d+", colour))
+        self.assertGreater(red, blue + 80)
+
+
+if __name__ == "__main__":
+    unittest.main()
