@@ -14,7 +14,7 @@ import urllib.request
 from selenium.webdriver.common.by import By
 
 from appliance import ROOT, eventually
-from page_case import PageCase
+from page_case import ZONE, PageCase
 
 PASSWORD = "correct horse battery"
 NEXT_PASSWORD = "a forgotten one replaced"
@@ -146,6 +146,7 @@ class Access(PageCase):
         self.expect_no_barriers(show)
 
     def test_7_the_administrator_lets_others_in(self):
+        self.browser.live_in(ZONE)
         self.browser.get(f"{self.appliance.address}#/system")
         self.fill_access(user="admin", password=NEXT_PASSWORD)
         self.open_people()
@@ -161,6 +162,7 @@ class Access(PageCase):
         self.assertEqual(self.status_of("api/v1/status", authorization), 200)
         self.assertEqual(self.status_of("api/v1/audit", authorization), 403)
         eventually("the audit", lambda: "create_token" in self.browser.text("#people"))
+        self.expect_local_times("audit", "entries", "#people > :last-child")
         self.browser.keep_picture("people")
         self.press("Remove kim")
         eventually("kim is none", lambda: "kim" not in self.users())

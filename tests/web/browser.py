@@ -75,6 +75,10 @@ class Browser(webdriver.Chrome):
         self.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "features": [{"name": "prefers-color-scheme", "value": scheme}]})
 
+    def live_in(self, zone):
+        """Emulates a time zone for pages that are opened from now on."""
+        self.execute_cdp_cmd("Emulation.setTimezoneOverride", {"timezoneId": zone})
+
     def look_for_barriers(self):
         """Prepares barriers(), before a page is opened whose policy would forbid it. Skips the test
         when axe-core is missing, except for acceptance."""

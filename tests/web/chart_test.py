@@ -17,16 +17,15 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.select import Select
 
 from appliance import PATIENCE_S, eventually
-from page_case import PageCase
+from page_case import ZONE, PageCase
 
-ZONE = "Asia/Kathmandu"  # 5:45 h ahead of UTC
 CHART = "[data-region=pool] .chart"
 
 
 class Charts(PageCase):
     def setUp(self):
         super().setUp()
-        self.browser.execute_cdp_cmd("Emulation.setTimezoneOverride", {"timezoneId": ZONE})
+        self.browser.live_in(ZONE)
         self.browser.get(f"{self.appliance.address}#/process")
         eventually("a chart with limits", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, f"{CHART} [data-limit] .grip[y1]"))

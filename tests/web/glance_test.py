@@ -12,7 +12,7 @@ import urllib.request
 from selenium.webdriver.common.by import By
 
 from appliance import PATIENCE_S, eventually
-from page_case import PageCase
+from page_case import ZONE, PageCase
 
 # Levels of alarms that are not warnings, and states that need nobody, by proc/signals/alarm.h.
 ALARM_LEVELS, WARNING_LEVELS, CALM_STATES = {1, 4, 5}, {2, 3}, {0, 6}
@@ -128,6 +128,11 @@ class Glance(PageCase):
         self.assertEqual(self.browser.text("[data-key='pool hot_spot_width'] small"), "mm")
         self.assertEqual(self.browser.text("[data-key='pool hot_spot_peak_temperature'] small"), "°C")
         self.assertEqual(self.browser.complaints(), [])
+
+    def test_events_of_alarms_have_local_times(self):
+        self.browser.live_in(ZONE)
+        self.show_process(1440, 900)
+        self.expect_local_times("history/alarms", "alarms", "#alarm-history")
 
     def expected_mark(self, alarms):
         """Class of the worst alarm that is active or not acknowledged."""

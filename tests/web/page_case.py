@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """A browser for each case, one running daemon for all cases of a class."""
 
+import datetime
 import unittest
+import zoneinfo
 
 from selenium.webdriver.common.by import By
 
 from appliance import Appliance, eventually
 from browser import Browser
+
+ZONE = "Australia/Eucla"  # 8:45 h ahead of UTC
 
 
 class PageCase(unittest.TestCase):
@@ -46,6 +50,24 @@ class PageCase(unittest.TestCase):
                 self.browser.get("about:blank")
                 show()
                 self.assertEqual(self.browser.barriers(), [])
+
+    def expect_local_times(self, path, name, table):
+        """Checks a table's first column, in the browser's zone ZONE, against the times that the interface has."""
+        def local(time):
+            utc = datetime.datetime.fromisoformat(f"{time[:19]}+00:00")
+            return utc.astimezone(zoneinfo.ZoneInfo(ZONE)).strftime("%Y-%m-%d %H:%M:%S")
+
+        def agree():
+            shown, stated = self.browser.execute_async_script("""
+                const [path, name, table, done] = arguments;
+                const shown = [...document.querySelectorAll(`${table} tbody tr`)]
+                  .map(({ cells }) => cells[0].textContent);
+                fetch(`/api/v1/${path}`).then((answer) => answer.json())
+                  .then((all) => done([shown, all[name].map(({ time }) => time)]));""", path, name, table)
+            return shown and set(shown) <= {local(time) for time in stated}
+
+        eventually(f"local times of {path}", agree)
+        self.assertIn(ZONE, self.browser.text(f"{table} thead"))
 
     def expect_fits_its_width(self):
         widths = self.browser.execute_script(

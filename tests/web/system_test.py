@@ -14,7 +14,7 @@ import urllib.request
 from selenium.webdriver.common.by import By
 
 from appliance import Appliance, eventually, free_port
-from page_case import PageCase
+from page_case import ZONE, PageCase
 
 
 class WithPlc(Appliance):
@@ -70,6 +70,11 @@ class SystemPage(PageCase):
         self.assertEqual([row[2] for row in shown][-len(lines):],
                          [line["text"] for line in reversed(lines)])
         self.browser.keep_picture("log")
+
+    def test_log_has_local_times(self):
+        self.browser.live_in(ZONE)
+        self.open("log")
+        self.expect_local_times("log", "lines", "#log")
 
     def test_log_shows_what_is_logged_while_one_looks(self):
         self.open("log")

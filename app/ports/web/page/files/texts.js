@@ -29,7 +29,7 @@ export const texts = {
   remove: "Remove",
   revoke: "Revoke",
   done: "Done",
-  when: "When",
+  when: (zone) => `When (${zone})`,
   who: "Who",
   from: "From",
   what: "What",
@@ -235,7 +235,7 @@ export const texts = {
       isFull ? "the list is full" : ""].filter(Boolean).join(", "),
     missing: (what) => `Other appliances are found by DDS: ${what}.`,
     self: "(this appliance)",
-    gone: (since) => `Gone since ${since.toLocaleString()}`,
+    gone: (since) => `Gone since ${since}`,
     alarms: (count, worst) => (count === 0 ? "No alarm" : count === 1 ? `Alarm ${worst}`
       : `${count} alarms; the worst: ${worst}`),
     about: (version, prefix) => [version, `topics ${prefix}/…`].filter(Boolean).join(", "),

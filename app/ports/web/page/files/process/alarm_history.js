@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events of alarms, kept by the appliance.
 import { amountText } from "../elements/amounts.js";
+import { momentText, timeZone } from "../elements/clock.js";
 import { element, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -9,7 +10,7 @@ export class AlarmHistory {
 
   constructor() {
     this.none = element("p", {}, texts.noAlarmEvents);
-    this.titles = [texts.when, texts.alarm, texts.event, texts.level, texts.value, texts.limit, texts.who];
+    this.titles = [texts.when(timeZone), texts.alarm, texts.event, texts.level, texts.value, texts.limit, texts.who];
     const { root: scrolled, body } = table(this.titles, texts.alarmHistory);
     this.table = scrolled;
     this.body = body;
@@ -33,7 +34,7 @@ export class AlarmHistory {
     this.none.hidden = events.length > 0;
     this.table.hidden = events.length === 0;
     this.body.replaceChildren(...events.map((event) => {
-      const cells = [new Date(event.time).toLocaleString(), event.name, event.event_text, event.level_text,
+      const cells = [momentText(event.time), event.name, event.event_text, event.level_text,
         amountText(event.value, event.unit), amountText(event.limit, event.unit), event.by ?? ""];
       return element("tr", {}, ...cells.map((text, n) => element("td", { "data-title": this.titles[n] }, text)));
     }));

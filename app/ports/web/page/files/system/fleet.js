@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All appliances of the DDS domain, updated while shown.
 import { post } from "../appliance/api.js";
+import { momentText } from "../elements/clock.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -31,7 +32,7 @@ class Card {
     setText(this.name, page ? "" : name);
     setText(this.self, appliance.is_self ? texts.fleet.self : "");
     const isGone = appliance.is_gone;
-    setText(this.state, isGone ? texts.fleet.gone(new Date(appliance.newest)) : condition);
+    setText(this.state, isGone ? texts.fleet.gone(momentText(appliance.newest)) : condition);
     this.state.classList.toggle("wrong", isGone || severity !== 0);
     setText(this.alarm, texts.fleet.alarms(appliance.alarms, appliance.alarm));
     this.alarm.classList.toggle("wrong", !isGone && appliance.alarms > 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The newest lines of the appliance's log, updated while shown.
+import { momentText, timeZone } from "../elements/clock.js";
 import { element, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -17,7 +18,7 @@ export class Log {
     this.level = element("select", { name: "level" },
       ...kLevels.map((level) => element("option", {}, level)));
     this.level.addEventListener("change", () => this.#begin());
-    this.lines = table([texts.when, texts.level, texts.what], texts.log);
+    this.lines = table([texts.when(timeZone), texts.level, texts.what], texts.log);
     this.opened = element("details", { id: "log" }, element("summary", {}, texts.log),
       element("label", {}, texts.leastLevel, " ", this.level), this.said, this.lines.root);
     this.opened.addEventListener("toggle", () => this.#begin());
@@ -48,7 +49,7 @@ export class Log {
     if (newest < this.#newest) return this.#begin();
     for (const line of lines) {
       this.lines.body.prepend(element("tr", { className: line.level },
-        element("td", {}, line.time.slice(0, 19).replace("T", " ")), element("td", {}, line.level),
+        element("td", {}, momentText(line.time)), element("td", {}, line.level),
         element("td", {}, line.text)));
     }
     this.#newest = newest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Users, tokens of programs and the audit, for administrators.
 import { answerTo, post } from "../appliance/api.js";
+import { momentText, timeZone } from "../elements/clock.js";
 import { element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -17,7 +18,7 @@ export class People {
     this.said = element("p", { role: "status" });
     this.users = table([texts.user, texts.role, ""], texts.people);
     this.tokens = table([texts.program, texts.role, ""], texts.programs);
-    this.done = table([texts.when, texts.who, texts.from, texts.what, texts.before, texts.after,
+    this.done = table([texts.when(timeZone), texts.who, texts.from, texts.what, texts.before, texts.after,
                        texts.result], texts.audit);
     this.opened = element("details", { id: "people" }, element("summary", {}, texts.peopleTitle),
       this.said,
@@ -78,7 +79,8 @@ export class People {
       this.#row(one, texts.revoke, "api/v1/revoke_token", { name: one.name })));
     const entries = audit.entries.slice(-kShownEntries).reverse();
     this.done.body.replaceChildren(...entries.map((entry) => element("tr", {},
-      ...["time", "who", "from", "what", "before", "after", "result"].map((key) =>
+      element("td", {}, momentText(entry.time)),
+      ...["who", "from", "what", "before", "after", "result"].map((key) =>
         element("td", {}, entry[key] ?? "")))));
   }
 }
