@@ -115,8 +115,8 @@ class RecipeOnThePage(PageCase):
         for name, value in (("name", "seam"), ("threshold", "900")):
             self.find(f"#regions form [name={name}]").send_keys(value)
         self.find("#regions form button").click()
-        eventually("it is there", lambda: Select(self.find(
-            "#regions [name=region]")).first_selected_option.text == "seam")
+        eventually("it is there", lambda: self.find(
+            "#regions [name=region]").get_property("value") == "seam")
         picture = self.find("#regions svg")
         ActionChains(self.browser).move_to_element_with_offset(picture, -200, -150).click_and_hold(
             ).move_by_offset(80, 60).release().perform()
