@@ -86,15 +86,17 @@ void write_cameras(const fs::path& folder) {
   write(folder / "tags.txt", tags.str());
 }
 
-/// Writes the demo's simulated machine, with a state folder and a port of its own: as machine.toml,
+/// Writes the demo's simulated machine, with a state folder and ports of its own: as machine.toml,
 /// as a configuration FILE, and changed as machine/site.toml.
 void write_machine(const fs::path& folder) {
   const fs::path shipped = kSource / "platform/config";
   std::string site = text_of(shipped / "demo.toml");
-  const std::string port = "port = 1502";
-  const std::size_t at = site.find(port);
-  ASSERT_NE(at, std::string::npos);
-  site.replace(at, port.size(), "port = 0");
+  for (const auto& [part, instead] : std::vector<std::pair<std::string, std::string>>{
+           {"port = 1502", "port = 0"}, {"[web]\n", "[web]\nport = 0\n"}}) {
+    const std::size_t at = site.find(part);
+    ASSERT_NE(at, std::string::npos) << part;
+    site.replace(at, part.size(), instead);
+  }
   site = "state_folder = \"" + (folder / "state").string() + "\"\n" + site;
   fs::create_directories(folder / "state");
   write(folder / "machine.toml", site);

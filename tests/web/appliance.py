@@ -48,10 +48,12 @@ class Appliance:
         self.port = free_port()
         for file in (ROOT / "platform/config").glob("demo*.toml"):
             shutil.copy(file, self.folder)
-        # The page replaces the ports that other daemons on this computer may have.
+        # No ports that other daemons on this computer may have.
         site = (self.folder / "demo.toml").read_text(encoding="utf-8")
-        site = site.replace("[modbus]\nport = 1502", f"[web]\nenabled = true\nport = {self.port}")
-        assert "[web]" in site, "the demo's site file has changed"
+        for part, instead in (("[modbus]\nport = 1502\n", ""),
+                              ("[web]\n", f"[web]\nport = {self.port}\n")):
+            assert part in site, "the demo's site file has changed"
+            site = site.replace(part, instead)
         site = 'state_folder = "state"\n' + site
         (self.folder / "demo.toml").write_text(site, encoding="utf-8")
         self.daemon = None

@@ -5,7 +5,7 @@ _orbwatch() {
     " ") words="project advise setup detect register place drift calibration subscribe state command password dds-keys list doctor configure lines bench describe --help --version" ;;
     "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
     "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
-    "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --force --json --help" ;;
+    "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --page --force --json --help" ;;
     "detect "*) words="--json --overlay --calibration --help" ;;
     "register "*) words="--rig --method --detect --refine-outline --json --output --help" ;;
     "place "*) words="--rig --camera --point --view-point --image --tag --tags --focal --ball-centre --sigma-px --sigma-mm --outline-sigma --json --output --view --yaw --pitch --roll --h-fov --v-fov --size --help" ;;

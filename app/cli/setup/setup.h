@@ -39,12 +39,20 @@ struct NamedBox {
   std::string remark;  ///< for people; empty: as stated
 };
 
+/// Computers to which the site's page is served.
+enum class PageClients {
+  None,
+  Loopback,  ///< this computer only
+  Network    ///< others too, over HTTPS, which see nothing until a password is set
+};
+
 /// A site in the making: stated facts, found ones, and missing ones.
 struct Setup {
   double ball_radius = 0;  ///< mm
   std::optional<optics::Vec3> ball_centre;
   std::optional<optics::Box> walls;
   std::vector<NamedBox> obstacles;
+  PageClients page = PageClients::Loopback;
   std::vector<SetupCamera> cameras;       ///< the first one is what others are registered to
   std::vector<std::string> without_ball;  ///< names of cameras that were dropped
   std::vector<std::string> missing;  ///< sentences for people, each with the command that adds it

@@ -2,6 +2,7 @@
 #include "app/cli/setup/setup_options.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <utility>
 
@@ -11,6 +12,10 @@
 
 namespace orbwatch::app::cli {
 namespace {
+
+constexpr std::array kPageClients{Word{"none", PageClients::None},
+                                  Word{"loopback", PageClients::Loopback},
+                                  Word{"network", PageClients::Network}};
 
 /// `word` as NAME=VALUE; without a name, `otherwise`.
 std::pair<std::string, std::string> named(const std::string& word, const std::string& otherwise) {
@@ -137,6 +142,9 @@ std::vector<Option> setup_options(SetupOptions& o) {
        text_option(o.box)},
       {"obstacle", 0, "[NAME=]X,Y,Z,X,Y,Z", "a box within: table, spindle; repeatable",
        list_option(o.obstacles)},
+      {"page", 0, joined(kPageClients),
+       "the page in a browser: off, for this computer\n(default), or for others, too",
+       word_option("page", kPageClients, o.page)},
       {"force", 0, "", "overwrite the files of DIR", flag_option(o.force)},
       {"json", 0, "", "for programs", flag_option(o.json)},
   };
@@ -145,6 +153,7 @@ std::vector<Option> setup_options(SetupOptions& o) {
 CliResult<> read_machine(const SetupOptions& o, Setup& setup) {
   if (!(o.ball_diameter > 0)) return usage_error("give --ball-diameter, above 0 mm");
   setup.ball_radius = o.ball_diameter / 2;
+  setup.page = o.page;
   if (!o.ball_centre.empty()) {
     const auto centre = numbers("ball-centre", o.ball_centre, 3);
     if (!centre) return tl::unexpected(centre.error());

@@ -17,6 +17,7 @@ struct SetupOptions {
   double ball_diameter = 0;
   std::vector<std::string> cameras, calibrations, poses, distances, obstacles;
   std::string ball_centre, box;
+  PageClients page = PageClients::Loopback;
   bool force = false;
   bool json = false;
 };

@@ -10,6 +10,7 @@
 #include "app/files/rig/camera_calibration.h"
 #include "app/files/toml/toml_text.h"
 #include "hal/atomic_file.h"
+#include "hal/host.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -80,6 +81,25 @@ std::string source_texts(const Setup& setup) {
   return text;
 }
 
+std::string page_text(PageClients page) {
+  switch (page) {
+    case PageClients::None:
+      return "\n# [web]                          # these two lines switch the page on\n"
+             "# enabled = true\n";
+    case PageClients::Loopback:
+      return "\n[web]\n"
+             "enabled = true                   # http://localhost:8080/, for this computer only\n"
+             "# address = \"0.0.0.0\"            # for others, too: https://HOST:8443/\n";
+    case PageClients::Network:
+      break;
+  }
+  const std::string name = hal::host_name();
+  return "\n[web]\n"
+         "enabled = true                   # http://localhost:8080/ on this computer\n"
+         "address = \"0.0.0.0\"              # https://HOST:8443/ for others, by a password\n" +
+         (name.empty() ? "" : files::toml_line("names", "[" + files::toml_string(name) + "]"));
+}
+
 std::string site_text(const Setup& setup) {
   std::string text =
       "# A site, as `orbwatch setup` wrote it. `orbwatch describe config` explains every key;\n"
@@ -90,7 +110,8 @@ std::string site_text(const Setup& setup) {
       "\n[modbus]\nport = 1502\n"
       "# address = \"192.168.1.10\"       # the machine network only; Modbus has no passwords\n"
       "# writers = [\"192.168.1.2\"]      # the PLC; without it only this computer may write\n"
-      "\n[dds]\ndomain = 0\n";
+      "\n[dds]\ndomain = 0\n" +
+      page_text(setup.page);
   for (const SetupCamera& camera : setup.cameras) text += camera_text(camera);
   return text +
          "\n[[view]]                         # everything around the ball\n"

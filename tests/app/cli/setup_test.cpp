@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <sstream>
 
+#include "app/files/resolve.h"
 #include "app/files/rig/rig_file.h"
+#include "hal/host.h"
 #include "proc/align/rotation_fit.h"
 #include "proc/optics/rotation.h"
 #include "tests/app/cli/command_line.h"
@@ -57,6 +59,30 @@ TEST_F(Setup, WritesASiteThatTheDaemonAccepts) {
   EXPECT_NEAR(rig.cameras[0].outline->rx, kPaintedLimb.rx, 1.2);
   EXPECT_EQ(rig.ball.radius, 40);
   EXPECT_TRUE(std::filesystem::exists(path("site/grey.png")));
+}
+
+TEST_F(Setup, ServesThePageToThisComputerUnlessItIsTold) {
+  const auto page_of = [&](const std::vector<std::string>& option) {
+    std::vector<std::string> arguments{"--camera", picture(), "--force"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    EXPECT_EQ(set_up(arguments), 0) << said;
+    const auto site = app::files::resolve(path("site/site.toml"));
+    EXPECT_TRUE(site) << site.error().message;
+    return site ? std::get<app::WebSettings>(site->site.sinks) : app::WebSettings{};
+  };
+  for (const std::vector<std::string>& option :
+       std::vector<std::vector<std::string>>{{}, {"--page", "loopback"}}) {
+    const app::WebSettings here = page_of(option);
+    EXPECT_TRUE(here.enabled);
+    EXPECT_EQ(http_addresses_of(here), std::vector<std::string>{"127.0.0.1"});
+    EXPECT_EQ(https_port_of(here), std::nullopt) << "no other computer";
+  }
+  const app::WebSettings everywhere = page_of({"--page", "network"});
+  EXPECT_TRUE(everywhere.enabled);
+  EXPECT_EQ(everywhere.address, "0.0.0.0");
+  EXPECT_EQ(https_port_of(everywhere), 8443);
+  EXPECT_EQ(everywhere.names, std::vector<std::string>{hal::host_name()});
+  EXPECT_FALSE(page_of({"--page", "none"}).enabled);
 }
 
 TEST_F(Setup, SaysWhatIsMissingAndWhatAddsIt) {
@@ -206,6 +232,7 @@ TEST_F(Setup, RefusesMistakesInOneLine) {
            {"distance within the ball",
             with({"80", "--distance", "39"}),
             {"--distance grey=39", "in the ball, whose radius is 40 mm"}},
+           {"no such page", with({"80", "--page", "lan"}), {"--page", "loopback"}},
            {"negative distance", with({"80", "--distance=-4"}), {"distance", "above"}},
            {"contradiction",
             with({"80", "--pose", "10,-300,400,1,0,0,0,0,-1,0,1,0", "--calibration", "DIR/a.yaml",

@@ -298,7 +298,7 @@ TEST(Configuration, MissingFileIsRefusedByName) {
 const std::filesystem::path kShipped =
     std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
 
-TEST(Configuration, ShippedFilesAreValid) {
+TEST(Configuration, ShippedFilesAreValidAndServeThePageToThisComputer) {
   int configurations = 0, rigs = 0, recipes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kShipped)) {
     if (entry.path().extension() != ".toml") continue;
@@ -313,7 +313,11 @@ TEST(Configuration, ShippedFilesAreValid) {
       ++recipes;
     } else {
       const auto c = resolve(entry.path());
-      EXPECT_TRUE(c) << c.error().message;
+      ASSERT_TRUE(c) << c.error().message;
+      const auto& web = std::get<WebSettings>(c->site.sinks);
+      EXPECT_TRUE(web.enabled) << entry.path() << " takes the page away from its users";
+      EXPECT_EQ(http_addresses_of(web), std::vector<std::string>{"127.0.0.1"}) << entry.path();
+      EXPECT_EQ(https_port_of(web), std::nullopt) << entry.path();
       ++configurations;
     }
   }

@@ -144,7 +144,7 @@ test_second_machine() {
 
 begin_second_machine() {
   inside sh -c 'mkdir /etc/orbwatch/second && cd /etc/orbwatch && cp -r rig.toml recipes second &&
-    sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/" site.toml >second/site.toml' &&
+    sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/; s/^\[web\]/&\nport = 8081/" site.toml >second/site.toml' &&
     inside systemctl enable --now orbwatch@second.service && wait_for "$patience" second_measures
 }
 
