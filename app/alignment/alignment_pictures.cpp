@@ -55,7 +55,8 @@ void AlignmentPictures::make() {
   while (const auto next = taken_.try_take()) {
     for (const Wanted& wanted : next->wanted) {
       if (!wanted.is_wanted()) continue;
-      wanted.on_picture(alignment_jpeg(next->picture.picture, wanted.ball, wanted.view));
+      wanted.on_picture(alignment_jpeg(next->picture.picture, wanted.ball, wanted.view),
+                        hal::TimePoint(next->picture.time));
     }
     bool is_next_wanted = false;
     {

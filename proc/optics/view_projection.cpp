@@ -118,6 +118,17 @@ Result<ViewProjection> ViewProjection::make(const ViewSpec& spec, const BallProj
   return view;
 }
 
+Result<ViewProjection> ViewProjection::whole_picture(const BallProjection& ball, int width,
+                                                     int height) {
+  const ViewSpec spec{ViewKind::Ball, {}, {}, {}, width, height};
+  if (auto ok = check_view(spec); !ok) return tl::unexpected(ok.error());
+  ViewProjection view(spec);
+  view.step_u_ = view.step_v_ = 1;
+  view.crop_centre_ = {(width - 1) / 2.0, (height - 1) / 2.0};
+  view.ball_ = ball;
+  return view;
+}
+
 ViewProjection::ViewProjection(const ViewSpec& spec)
     : spec_(spec), orientation_(rotation(spec.orientation)) {
   if (spec_.kind == ViewKind::Ball) return;

@@ -53,6 +53,10 @@ class ViewProjection {
   /// %. Error: also a limb that the lens does not show.
   static Result<ViewProjection> make(const ViewSpec& spec, const BallProjection& ball);
 
+  /// A Ball view that shows a camera's whole picture, which has this size, pixel by pixel. Error:
+  /// that of check_view().
+  static Result<ViewProjection> whole_picture(const BallProjection& ball, int width, int height);
+
   /// Unit vector of a pixel (OpenCV convention), also slightly outside the picture. nullopt beyond
   /// the projection's end: beyond 180 degrees from a fisheye's axis, outside of the ball's limb.
   std::optional<Vec3> direction(double u, double v) const;

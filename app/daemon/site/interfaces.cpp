@@ -35,6 +35,7 @@ PageContext page_context(const files::Resolved& site, const SitePlan& plan,
                          AlignmentSource* alignment, Program program) {
   return {.ball = plan.scene.ball,
           .scene = plan.scene.proxy,
+          .balls = camera_balls(site),
           .recipes = measured_recipes(site, plan),
           .alignment = alignment,
           .state_folder = site.state_folder,

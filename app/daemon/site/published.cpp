@@ -75,6 +75,20 @@ std::vector<PublishedCamera> published_cameras(const files::Resolved& site) {
   return cameras;
 }
 
+std::vector<std::shared_ptr<const optics::ViewProjection>> camera_balls(
+    const files::Resolved& site) {
+  std::vector<std::shared_ptr<const optics::ViewProjection>> balls(site.site.cameras.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const optics::RigCamera& camera = site.rig_camera(i);
+    if (!camera.is_registered) continue;
+    const auto view = optics::ball_projection(site.rig, camera).and_then([&](const auto& ball) {
+      return optics::ViewProjection::whole_picture(ball, camera.width, camera.height);
+    });
+    if (view) balls[i] = std::make_shared<const optics::ViewProjection>(*view);
+  }
+  return balls;
+}
+
 std::vector<MeasuredRecipe> measured_recipes(const files::Resolved& site, const SitePlan& plan) {
   std::vector<MeasuredRecipe> recipes;
   for (std::size_t i = 0; i < plan.recipes.size(); ++i) {

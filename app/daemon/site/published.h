@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "app/daemon/site/site_plan.h"
@@ -15,6 +16,11 @@ std::vector<PublishedView> published_views(const files::Resolved& site, const Si
 
 /// Its cameras, by place in its names. Reentrant.
 std::vector<PublishedCamera> published_cameras(const files::Resolved& site);
+
+/// The room as each of its cameras' whole picture shows it, by place in its names; null: the camera
+/// is not registered. Reentrant.
+std::vector<std::shared_ptr<const optics::ViewProjection>> camera_balls(
+    const files::Resolved& site);
 
 /// Its recipes, with the outlines and projections that they are measured by. Reentrant.
 std::vector<MeasuredRecipe> measured_recipes(const files::Resolved& site, const SitePlan& plan);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/model/status/status.h"
+#include "hal/clock.h"
 #include "proc/image/result.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/rotation.h"
@@ -69,8 +70,8 @@ struct AlignmentPicture {
 /// Queries of interfaces about alignments, besides figures and commands. Thread-safe.
 class AlignmentSource {
  public:
-  /// Called once, on another thread: the JPEG file.
-  using OnPicture = std::function<void(Result<std::string>)>;
+  /// Called once, on another thread: the JPEG file, and the exposure start of its frame set.
+  using OnPicture = std::function<void(Result<std::string> jpeg, hal::TimePoint stamp)>;
   /// Returns whether the client still waits for the picture. Called on any thread, also under a
   /// lock. Once false it stays false, and OnPicture need not be called.
   using IsWanted = std::function<bool()>;

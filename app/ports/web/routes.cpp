@@ -93,11 +93,12 @@ std::vector<Route> picture_routes(const RouteOwners& of) {
           "picture is not kept, request a newer one"),
       get<&LookAround::list>(
           "/api/v1/look-around", Viewer, of.look_around,
-          "Returns the names of views of kind ball, from which a browser draws views of the room, "
-          "and of the views that the command point_view points"),
+          "Returns the names of the balls' pictures, from which a browser draws views of the room: "
+          "views of kind ball, and ball:CAMERA for each registered camera that none shows, at most "
+          "four times a second; and of the views that the command point_view points"),
       get<&LookAround::mesh>(
           "/api/v1/sphere", Viewer, of.look_around,
-          "Returns the room as a view of kind ball shows it, as triangles with the pixels of their "
+          "Returns the room as a ball's picture shows it, as triangles with the pixels of their "
           "corners: a line of JSON with the number of bytes that follow. The ETag changes with the "
           "calibration",
           LookAround::kType),

@@ -15,6 +15,7 @@
 #include "app/model/status/status_report.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/optics/scene_proxy.h"
+#include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
 
@@ -23,8 +24,10 @@ class Fleet;
 
 /// Parts of the appliance that only the page shows.
 struct PageContext {
-  optics::Ball ball;                     ///< machine frame, mm
-  optics::SceneProxy scene;              ///< around it
+  optics::Ball ball;         ///< machine frame, mm
+  optics::SceneProxy scene;  ///< around it
+  /// The room in each camera's whole picture, by camera; null: not to be looked around in.
+  std::vector<std::shared_ptr<const optics::ViewProjection>> balls;
   std::vector<MeasuredRecipe> recipes;   ///< what is measured
   AlignmentSource* alignment = nullptr;  ///< outlives the sink's run; null: none
   std::filesystem::path state_folder;    ///< of what must outlast a restart; empty: no users

@@ -29,12 +29,14 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       pixels_(context),
       status_(context.names, {[this] { return statistics(); }, context.metrics},
               version_of(context.program), settings_.status_timeout),
+      balls_(context),
       streams_(
-          context.names.views, settings_.jpeg, settings_.max_streams, threads_, status_.feed(),
+          context.names.views, balls_.feeds(), settings_.jpeg, settings_.max_streams, threads_,
+          status_.feed(),
           [this](const ViewPtr& view, std::uint64_t number) { pixels_.show(view, number); },
           access_, server_counts_),
       commands_(context.commands, list_, access_, audit_),
-      look_around_(context.names, context.views, context.background),
+      look_around_(context.names, context.views, balls_.all(), context.background),
       alignment_(context.names.cameras, context.alignment),
       recipe_(context.recipes, {context.ball, context.scene}, [this] { return status_.recipe(); }),
       history_(context.names, context.recipes),
@@ -90,6 +92,7 @@ void WebSink::watch() {
     access_.refresh();
     audit_.write_due(std::chrono::system_clock::now());
     pixels_.release_unwanted(hal::Clock::now());
+    balls_.follow();
     history_.advance(hal::Clock::now());
     status_.publish();
   }

@@ -20,6 +20,7 @@
 #include "app/ports/web/interfaces/interface_routes.h"
 #include "app/ports/web/listeners.h"
 #include "app/ports/web/log/log_routes.h"
+#include "app/ports/web/look_around/ball_pictures.h"
 #include "app/ports/web/look_around/look_around.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
@@ -75,6 +76,7 @@ class WebSink final : public Sink {
   web::ViewList list_;
   web::PixelRoute pixels_;
   web::StatusRoutes status_;
+  web::BallPictures balls_;
   web::StreamRoutes streams_;
   web::CommandDesk commands_;
   web::LookAround look_around_;

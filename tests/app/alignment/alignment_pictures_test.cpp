@@ -28,7 +28,8 @@ class AlignmentPicturesTest : public tests::TwoWatchedCameras {
     const auto ball = optics::ball_projection(site.rig, site.rig.cameras[camera]);
     return pictures.request(
         {camera, {}, false, {}}, ball.value(),
-        [this](const Result<std::string>&) {
+        [this](const Result<std::string>&, hal::TimePoint of) {
+          made_of = of;
           on_made();
           ++made;
         },
@@ -43,6 +44,7 @@ class AlignmentPicturesTest : public tests::TwoWatchedCameras {
 
   std::function<void()> on_made = [] {};
   std::atomic<std::size_t> made{0};
+  hal::TimePoint made_of;  ///< of the newest picture; read after `made`
   AlignmentPictures pictures;
 };
 
@@ -76,9 +78,11 @@ TEST_F(AlignmentPicturesTest, OneAskedForWhileAnotherIsMadeIsMadeOfTheNextFrame)
     }
   };
   ASSERT_TRUE(ask(0));
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto begin = stamp, give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (made < 2 && std::chrono::steady_clock::now() < give_up) show(0);
   EXPECT_EQ(made, 2U);
+  EXPECT_GT(made_of, begin + std::chrono::milliseconds(40)) << "the first one's";
+  EXPECT_LE(made_of, stamp);
 }
 
 TEST_F(AlignmentPicturesTest, OfACameraWithAFaultAreRefusedAtOnce) {

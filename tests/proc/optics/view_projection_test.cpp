@@ -122,6 +122,21 @@ TEST(ViewProjection, ABallViewIsTheCamerasPictureCutToTheLimb) {
   EXPECT_NEAR(c.u, a.u, 1e-6);
 }
 
+TEST(ViewProjection, AWholePictureHasTheCamerasPixels) {
+  const BallProjection ball = tilted_ball();
+  const auto view = ViewProjection::whole_picture(ball, 640, 480).value();
+  EXPECT_EQ(view.kind(), ViewKind::Ball);
+  EXPECT_EQ(view.width(), 640);
+  for (const Vec2 pixel : {Vec2{293, 237}, Vec2{270, 301}}) {
+    const Vec2 shown = view.of_camera_pixel(pixel);
+    EXPECT_NEAR(shown.u, pixel.u, 1e-9);
+    EXPECT_NEAR(shown.v, pixel.v, 1e-9);
+    EXPECT_LT(deviation(*view.direction(pixel.u, pixel.v), *ball.direction(pixel)), 1e-12);
+  }
+  EXPECT_FALSE(view.direction(1, 1)) << "beside the ball";
+  EXPECT_FALSE(ViewProjection::whole_picture(ball, 0, 480));
+}
+
 TEST(ViewProjection, ABallViewOfTheCamerasSizeHasTheCamerasPixels) {
   const BallProjection ball = tilted_ball();
   const Outline limb = ball.outline().value();

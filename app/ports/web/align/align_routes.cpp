@@ -52,7 +52,7 @@ void AlignRoutes::request(const CameraQuery& query, AlignmentPicture picture,
     return;
   }
   picture.camera = *camera;
-  const auto on_picture = [exchange](Result<std::string> jpeg) {
+  const auto on_picture = [exchange](Result<std::string> jpeg, hal::TimePoint /*stamp*/) {
     exchange->answer(jpeg ? body_response(kJpeg, std::move(*jpeg))
                           : error_response(409, jpeg.error().message));
   };

@@ -9,6 +9,7 @@
 namespace orbwatch::app::web {
 
 LookAround::LookAround(const StatusNames& names, const std::vector<PublishedView>& views,
+                       const std::vector<BallPictures::Ball>& balls,
                        std::shared_ptr<hal::SharedThreads> threads)
     : work_(std::move(threads), [this] { compute(); }) {
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -19,10 +20,14 @@ LookAround::LookAround(const StatusNames& names, const std::vector<PublishedView
       list_.pointed.push_back({names.views[i], i});
     }
   }
+  for (const BallPictures::Ball& ball : balls) {
+    list_.spheres.push_back(ball.name);
+    spheres_.push_back({ball.view, {}, {}, {}});
+  }
 }
 
 void LookAround::mesh(const ViewQuery& query, const ExchangePtr& exchange) {
-  auto index = index_of("view of kind ball", query.view, list_.spheres);
+  auto index = index_of("picture of a ball", query.view, list_.spheres);
   if (!index) {
     exchange->answer(std::move(index.error()));
     return;

@@ -12,12 +12,13 @@
 #include "app/model/status/status_report.h"
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/http/exchange.h"
+#include "app/ports/web/look_around/ball_pictures.h"
 #include "app/ports/web/streams/view_query.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app::web {
 
-/// Views of kind ball, and views that the command point_view points.
+/// Pictures of balls, and views that the command point_view points.
 struct LookAroundAnswer {
   struct Pointed {
     std::string name;
@@ -33,7 +34,10 @@ void visit(Visitor& v, LookAroundAnswer::Pointed& view) {
 }
 template <class Visitor>
 void visit(Visitor& v, LookAroundAnswer& answer) {
-  v.required("spheres", answer.spheres, "Names of views of kind ball");
+  v.required(
+      "spheres", answer.spheres,
+      "Names of views of kind ball, and ball:CAMERA for cameras that none shows; streams and "
+      "snapshots accept both as views");
   v.required("pointed", answer.pointed, "Views that point_view points");
 }
 
@@ -43,12 +47,13 @@ void visit(Visitor& v, LookAroundAnswer& answer) {
 class LookAround {
  public:
   LookAround(const StatusNames& names, const std::vector<PublishedView>& views,
+             const std::vector<BallPictures::Ball>& balls,
              std::shared_ptr<hal::SharedThreads> threads);
 
   static constexpr std::string_view kType = "application/octet-stream";
 
   Answered<LookAroundAnswer> list() const { return list_; }
-  /// Answers with mesh_text() of a view.
+  /// Answers with mesh_text() of a ball's picture.
   void mesh(const ViewQuery& query, const ExchangePtr& exchange);
 
   /// Waits for the computation in progress; pending requests are left to their deadline.

@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/ports/web/streams/live_stream.h"
 #include "app/ports/web/streams/mjpeg_stream.h"
 
 namespace orbwatch::app::web {
 
-StreamRoutes::StreamRoutes(std::vector<std::string> views, const JpegSettings& jpeg,
-                           int max_streams, const std::shared_ptr<hal::SharedThreads>& threads,
+StreamRoutes::StreamRoutes(std::vector<std::string> views, std::vector<LiveStream::Source> others,
+                           const JpegSettings& jpeg, int max_streams,
+                           const std::shared_ptr<hal::SharedThreads>& threads,
                            std::shared_ptr<Feed> status, const ViewEncoder::OnPicture& on_picture,
                            Access& access, ServerCounts& counts)
     : names_(std::move(views)),
+      others_(std::move(others)),
       max_streams_(static_cast<std::uint64_t>(max_streams)),
       status_(std::move(status)),
       access_(access),
@@ -26,6 +27,8 @@ StreamRoutes::StreamRoutes(std::vector<std::string> views, const JpegSettings& j
 }
 
 Answered<std::shared_ptr<Feed>> StreamRoutes::feed_of(const std::string& view) const {
+  const auto other = std::ranges::find(others_, view, &LiveStream::Source::name);
+  if (other != others_.end()) return other->feed;
   return index_of("view", view, names_).map([this](std::size_t i) { return views_[i]->feed(); });
 }
 

@@ -14,6 +14,7 @@
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/status/web_statistics.h"
+#include "app/ports/web/streams/live_stream.h"
 #include "app/ports/web/streams/stream_counts.h"
 #include "app/ports/web/streams/view_encoder.h"
 #include "app/ports/web/streams/view_query.h"
@@ -34,9 +35,11 @@ void visit(Visitor& v, LiveQuery& query) {
 /// and accept on the pipeline's thread; stop by the owner; everything else on any thread.
 class StreamRoutes {
  public:
-  /// `max_streams` is the limit of open streams. `status` is the feed of the status. `on_picture`
-  /// as for ViewEncoder. `access` and `counts` outlive the routes.
-  StreamRoutes(std::vector<std::string> views, const JpegSettings& jpeg, int max_streams,
+  /// `others` are feeds of pictures that are served beside those of views. `max_streams` is the
+  /// limit of open streams. `status` is the feed of the status. `on_picture` as for ViewEncoder.
+  /// `access` and `counts` outlive the routes.
+  StreamRoutes(std::vector<std::string> views, std::vector<LiveStream::Source> others,
+               const JpegSettings& jpeg, int max_streams,
                const std::shared_ptr<hal::SharedThreads>& threads, std::shared_ptr<Feed> status,
                const ViewEncoder::OnPicture& on_picture, Access& access, ServerCounts& counts);
 
@@ -59,6 +62,7 @@ class StreamRoutes {
   Response start(Credentials credentials, std::string_view type, std::shared_ptr<Stream> stream);
 
   const std::vector<std::string> names_;
+  const std::vector<LiveStream::Source> others_;
   const std::uint64_t max_streams_;
   const std::shared_ptr<Feed> status_;
   Access& access_;

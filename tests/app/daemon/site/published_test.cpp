@@ -54,6 +54,22 @@ TEST(Published, ABallsPictureIsThatOfTheFirstCameraThatIsShown) {
   EXPECT_GT(optics::dot(shown, by_thermal), 1 - 1e-9) << "the colour camera is left out";
 }
 
+TEST(Published, ACamerasWholePictureIsOfferedOnceItIsRegistered) {
+  files::Resolved site = demo();
+  const auto balls = camera_balls(site);
+  ASSERT_EQ(balls.size(), 2U);
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const optics::RigCamera& camera = site.rig_camera(i);
+    ASSERT_TRUE(balls[i]);
+    EXPECT_EQ(balls[i]->width(), camera.width);
+    const optics::Vec2 middle{(camera.width - 1) / 2.0, (camera.height - 1) / 2.0};
+    EXPECT_TRUE(balls[i]->direction(middle.u, middle.v)) << "the demo's cameras aim at the ball";
+  }
+  site.rig.cameras[site.rig_cameras[kThermalCamera]].is_registered = false;
+  EXPECT_FALSE(camera_balls(site)[kThermalCamera]) << "it would show things in wrong places";
+  EXPECT_TRUE(camera_balls(site)[0]);
+}
+
 TEST(Published, RecipesHaveTheOutlinesThatAreMeasured) {
   const files::Resolved site = demo();
   const auto plan = SitePlan::make(site, expected_formats(site));

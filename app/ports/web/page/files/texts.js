@@ -92,7 +92,7 @@ export const texts = {
   wireFrame: "Wire frame of the machine",
   resolutionLow: "1 pixel per degree",
   resolutionHigh: "16 pixels per degree",
-  noSphere: "There is no view of kind \"ball\": add one to the site file.",
+  noSphere: "No camera shows the ball: each must be registered, and watched (enabled in [camera.watch]).",
   noWebGl: "This browser has no WebGL: the appliance turns a view, for all users who watch it.",
   noWebGlNoView: "This browser has no WebGL, and the appliance has no view that can be turned.",
   align: {

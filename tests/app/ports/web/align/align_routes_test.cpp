@@ -49,7 +49,7 @@ class Source : public AlignmentSource {
     const std::lock_guard lock(mutex_);
     asked_ = picture;
     // Called later and elsewhere, like by cameras.
-    pictures_.emplace_back([on_picture = std::move(on_picture)] { on_picture("a picture"); });
+    pictures_.emplace_back([on_picture = std::move(on_picture)] { on_picture("a picture", {}); });
     return {};
   }
   std::atomic<std::size_t> steps{2};

@@ -110,7 +110,7 @@ TEST_F(ServedSphere, ListsWhatCanBeLookedAroundIn) {
   EXPECT_EQ(get(port(), "/api/v1/sphere").status, 400);
   const Answer other = get(port(), "/api/v1/sphere?view=wide");
   EXPECT_EQ(other.status, 404);
-  EXPECT_THAT(other.body, testing::HasSubstr("unknown view of kind ball wide; there are: front"));
+  EXPECT_THAT(other.body, testing::HasSubstr("unknown picture of a ball wide; there are: front"));
 }
 
 TEST_F(ServedSphere, EdgesOfTheSceneAreListed) {
