@@ -58,6 +58,18 @@ TEST_F(Players, AreOfferedBasicWhereItCounts) {
       << "a browser would ask for a password beside the page";
 }
 
+/// A browser sends the password of HTTP Basic by itself, also for a foreign page's request.
+TEST_F(Players, CannotChangeAnything) {
+  std::vector<std::string> routes;
+  for (const Route& route : sink->routes()) {
+    if (!route.takes_password) continue;
+    EXPECT_EQ(route.method, "GET") << route.path;
+    EXPECT_EQ(route.role, Role::Viewer) << route.path;
+    routes.push_back(route.path);
+  }
+  EXPECT_THAT(routes, testing::UnorderedElementsAre("/metrics", "/snapshot.jpg", "/stream.mjpg"));
+}
+
 TEST_F(Players, AreNobodyElsewhere) {
   for (const Route& route : sink->routes()) {
     if (route.takes_password || route.role == Role::Nobody) continue;
