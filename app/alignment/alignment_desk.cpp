@@ -428,9 +428,18 @@ std::optional<optics::Vec3> AlignmentDesk::direction(std::size_t camera,
   return ball ? ball->direction(pixel) : std::nullopt;
 }
 
-Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_picture,
-                                IsWanted is_wanted) {
-  if (!has(picture.camera)) return fail("there is no camera " + std::to_string(picture.camera));
+Result<std::vector<optics::BallProjection>> AlignmentDesk::balls_of(
+    const AlignmentPicture& picture) const {
+  std::vector<optics::BallProjection> balls;
+  const auto add = [&](const optics::Rig& rig, std::size_t camera) {
+    optics::RigCamera own = site_.camera_of(rig, camera);
+    if (picture.model) own.model = *picture.model;
+    return optics::ball_projection(rig, own).map(
+        [&](optics::BallProjection ball) { balls.push_back(std::move(ball)); });
+  };
+  if (picture.is_beside_first) {
+    if (const auto added = add(site_.rig, 0); !added) return tl::unexpected(added.error());
+  }
   optics::Rig rig = site_.rig;
   if (picture.is_proposed) {
     const std::lock_guard lock(mutex_);
@@ -438,10 +447,18 @@ Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_pi
     if (!proposed) return tl::unexpected(proposed.error());
     rig = std::move(*proposed);
   }
-  optics::RigCamera camera = site_.camera_of(rig, picture.camera);
-  if (picture.model) camera.model = *picture.model;
-  return optics::ball_projection(rig, camera).and_then([&](const optics::BallProjection& ball) {
-    return pictures_.request(picture, ball, std::move(on_picture), std::move(is_wanted));
+  return add(rig, picture.camera).map([&] { return std::move(balls); });
+}
+
+Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPictures on_pictures,
+                                IsWanted is_wanted) {
+  if (!has(picture.camera)) return fail("there is no camera " + std::to_string(picture.camera));
+  if (picture.is_beside_first && picture.camera == 0) {
+    return fail("it is the first camera, which others are compared with");
+  }
+  return balls_of(picture).and_then([&](std::vector<optics::BallProjection> balls) {
+    return pictures_.request(picture, std::move(balls), std::move(on_pictures),
+                             std::move(is_wanted));
   });
 }
 

@@ -90,7 +90,7 @@ class AlignmentDesk : public AlignmentSource {
   AlignmentReport report(std::size_t camera) const override;
   std::optional<optics::Vec3> direction(std::size_t camera,
                                         const optics::Vec2& pixel) const override;
-  Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+  Result<> request(const AlignmentPicture& picture, OnPictures on_pictures,
                    IsWanted is_wanted) override;
 
   /// Begins to correct cameras whose settings ask for that.
@@ -114,6 +114,7 @@ class AlignmentDesk : public AlignmentSource {
 
   bool has(std::size_t camera) const { return camera < site_.cameras.size(); }
   const std::string& name(std::size_t camera) const { return site_.cameras[camera].name; }
+  Result<std::vector<optics::BallProjection>> balls_of(const AlignmentPicture& picture) const;
 
   CommandResult begin(std::size_t camera, bool is_possible, Task task);
   void work();

@@ -34,6 +34,11 @@ class WatchedCameras {
   /// shared thread, and must return soon. Never called after the watching has stopped.
   virtual void ask(std::size_t camera, std::function<void(RecordedPicture)> reader) = 0;
 
+  /// The same with the next frame set that has a new picture of each of these cameras, which are in
+  /// their order and have the set's time. Error: no set of some seconds has them all.
+  virtual void ask_together(std::vector<std::size_t> cameras,
+                            std::function<void(Result<std::vector<RecordedPicture>>)> reader) = 0;
+
   /// Waits for the next pictures of watched cameras, at most `count` of each; fewer when `patience`
   /// ends. All are of frame sets that have a new picture of each of these cameras, and those of one
   /// set have the same time. Error: one of them delivers none, or it was cancelled.

@@ -55,7 +55,7 @@ void CameraWatch::Watched::serve_readers() {
 
 CameraWatch::CameraWatch(const AlignedSite& site, const std::filesystem::path& folder,
                          const std::shared_ptr<hal::SharedThreads>& threads)
-    : threads_(threads) {
+    : threads_(threads), copies_(threads) {
   for (std::size_t i = 0; i < site.cameras.size(); ++i) {
     cameras_.emplace_back();
     is_registered_.push_back(site.rig_camera(i).is_registered);
@@ -90,13 +90,14 @@ CameraWatch::~CameraWatch() {
 }
 
 void CameraWatch::stop() {
+  copies_.stop();
   for (const auto& camera : cameras_) {
     if (camera) camera->work.cancel();
   }
 }
 
 std::chrono::nanoseconds CameraWatch::cpu_time() const {
-  std::chrono::nanoseconds time{0};
+  std::chrono::nanoseconds time = copies_.cpu_time();
   for (const auto& camera : cameras_) {
     if (camera) time += camera->work.cpu_time();
   }
@@ -127,6 +128,7 @@ void CameraWatch::accept_frames(const hal::FrameSet& set) {
     camera->looking.store(true, std::memory_order_release);
     camera->work.request();
   }
+  copies_.accept(set);
 }
 
 void CameraWatch::accept(const Status& status) {

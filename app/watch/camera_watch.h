@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/alignment/aligned_site.h"
@@ -18,6 +19,7 @@
 #include "app/model/status/status.h"
 #include "app/watch/alignment_watch.h"
 #include "app/watch/ball_watch.h"
+#include "app/watch/frame_set_copies.h"
 #include "hal/fault.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/priority_mutex.h"
@@ -53,6 +55,9 @@ class CameraWatch : public Sink, public WatchedCameras {
   hal::Fault fault(std::size_t camera) const override { return faults_[camera]; }
   std::optional<align::DriftState> drift(std::size_t camera) const override;
   void ask(std::size_t camera, std::function<void(RecordedPicture)> reader) override;
+  void ask_together(std::vector<std::size_t> cameras, FrameSetCopies::Reader reader) override {
+    copies_.ask(std::move(cameras), std::move(reader));
+  }
   Result<std::vector<std::vector<RecordedPicture>>> record(const std::vector<std::size_t>& cameras,
                                                            std::size_t count,
                                                            std::chrono::seconds patience) override;
@@ -103,6 +108,7 @@ class CameraWatch : public Sink, public WatchedCameras {
   const std::shared_ptr<hal::SharedThreads> threads_;
   std::array<std::atomic<hal::Fault>, kMaxCameras> faults_{};
   Records records_;
+  FrameSetCopies copies_;
   std::vector<bool> is_registered_;                ///< one per camera
   std::vector<std::unique_ptr<Watched>> cameras_;  ///< null: not watched
 };

@@ -152,9 +152,11 @@ class Contract(unittest.TestCase):
     def queries(self):
         """Queries that are answered, by path; a path without arguments needs none."""
         get = self.appliance.get
-        camera = get("alignment")["cameras"][0]
+        camera, other = get("alignment")["cameras"][:2]
         name, middle = camera["name"], {"u": camera["width"] // 2, "v": camera["height"] // 2}
-        views = [view["name"] for view in get("views")["views"]]
+        view = {"which": "proposed", "yaw": 10, "pitch": 5, "h_fov": 60, "width": 64, "height": 48,
+                "model": "paper"}
+        views = [one["name"] for one in get("views")["views"]]
         recipe = get("recipe")
         polygon = {"view": recipe["views"][0]["name"], "pixels": "200,150,400,150,300,300"}
         pixel = {"view": views[0], "u": 40, "v": 30}
@@ -172,10 +174,8 @@ class Contract(unittest.TestCase):
             "/api/v1/live/pixel": [pixel, {**pixel, "number": number}],
             "/api/v1/sphere": [{"view": get("look-around")["spheres"][0]}],
             "/api/v1/alignment/ball.jpg": [{"camera": name}],
-            "/api/v1/alignment/view.jpg": [
-                {"camera": name},
-                {"camera": name, "which": "proposed", "yaw": 10, "pitch": 5, "h_fov": 60,
-                 "width": 64, "height": 48, "model": "paper"}],
+            "/api/v1/alignment/view.jpg": [{"camera": name}, {"camera": name, **view}],
+            "/api/v1/alignment/pair": [{"camera": other["name"]}, {"camera": other["name"], **view}],
             "/api/v1/alignment/direction": [{"camera": name, **middle}],
             "/api/v1/recipe": [{}, {"number": recipe["number"]}],
             "/api/v1/recipe/polygon": [polygon, {**polygon, "number": recipe["number"]}],

@@ -103,7 +103,7 @@ def turned(rotation, degrees):
 
 
 class MisalignedMachine(Appliance):
-    """`truth`: outline and registration of each camera."""
+    """`truth`: outline and registration of each camera. Cameras can be unplugged."""
 
     def __init__(self):
         super().__init__()
@@ -112,6 +112,19 @@ class MisalignedMachine(Appliance):
                       for camera in rig["camera"]}
         self.rig = rig
         (self.folder / "demo-rig.toml").write_text(self.wrong_rig(), encoding="utf-8")
+        site = self.folder / "demo.toml"
+        connected = self.folder / "connected"
+        connected.mkdir()
+        for name in self.truth:
+            (connected / name).touch()
+        site.write_text(site.read_text(encoding="utf-8")
+                        + f'\n[simulation]\nconnected = "{connected}"\n', encoding="utf-8")
+
+    def unplug(self, camera):
+        (self.folder / "connected" / camera).unlink()
+
+    def plug_in(self, camera):
+        (self.folder / "connected" / camera).touch()
 
     def wrong_rig(self):
         ball, scene = self.rig["ball"], self.rig["scene"]

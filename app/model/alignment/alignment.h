@@ -58,22 +58,30 @@ struct AlignmentReport {
   std::vector<PlacedPoint> points;
 };
 
-/// Request for a picture from which a user judges an alignment.
+/// Request for a picture from which a user judges an alignment, or for a pair.
 struct AlignmentPicture {
   std::size_t camera = 0;
   /// Requested view; nullopt: the camera's picture in full resolution.
   std::optional<optics::ViewSpec> view;
   bool is_proposed = false;                      ///< use the proposed alignment, if there is one
   std::optional<optics::BallModel::Kind> model;  ///< replaces the rig's model
+  /// Also requests the same view from the first camera, by its alignment in force.
+  bool is_beside_first = false;
+};
+
+/// JPEG files of frames of one set. The occurring range of 16-bit luminance is stretched to 8 bits.
+struct AlignmentJpegs {
+  hal::TimePoint stamp;            ///< the set's
+  std::vector<std::string> files;  ///< of a pair, the first camera's comes first
 };
 
 /// Queries of interfaces about alignments, besides figures and commands. Thread-safe.
 class AlignmentSource {
  public:
-  /// Called once, on another thread: the JPEG file, and the exposure start of its frame set.
-  using OnPicture = std::function<void(Result<std::string> jpeg, hal::TimePoint stamp)>;
+  /// Called once, on another thread.
+  using OnPictures = std::function<void(Result<AlignmentJpegs>)>;
   /// Returns whether the client still waits for the picture. Called on any thread, also under a
-  /// lock. Once false it stays false, and OnPicture need not be called.
+  /// lock. Once false it stays false, and OnPictures need not be called.
   using IsWanted = std::function<bool()>;
 
   virtual ~AlignmentSource() = default;
@@ -83,11 +91,12 @@ class AlignmentSource {
   /// pixel is not on the ball.
   virtual std::optional<optics::Vec3> direction(std::size_t camera,
                                                 const optics::Vec2& pixel) const = 0;
-  /// Requests a picture made from the camera's next frame; does not wait. The occurring range of
-  /// 16-bit luminance is stretched to 8 bits. Error: the camera is not watched or has a fault, too
-  /// many pictures of it are requested, or the alignment is impossible with this model. While the
-  /// camera delivers nothing, `on_picture` is not called.
-  virtual Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+  /// Requests a picture made from the camera's next frame, or a pair made from the next frame set
+  /// that has a new one of both cameras; does not wait. Error: a camera is not watched or has a
+  /// fault, too many pictures of it are requested, the alignment is impossible with this model, or
+  /// the first camera is to be compared with itself. While the camera of a single picture delivers
+  /// nothing, `on_pictures` is not called.
+  virtual Result<> request(const AlignmentPicture& picture, OnPictures on_pictures,
                            IsWanted is_wanted) = 0;
 };
 

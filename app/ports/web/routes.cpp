@@ -117,6 +117,13 @@ std::vector<Route> alignment_routes(const RouteOwners& of) {
       get<&AlignRoutes::view>(
           "/api/v1/alignment/view.jpg", Viewer, of.alignment,
           "Returns the next perspective view from one camera alone, to judge its alignment", kJpeg),
+      get<&AlignRoutes::pair>(
+          "/api/v1/alignment/pair", Viewer, of.alignment,
+          "Returns one view from the first camera, by its alignment in force, and from another "
+          "one, made from frames of one set. Each begins with a line of JSON that states camera, "
+          "time, age and the number of bytes of the JPEG file that follows. 409: a camera has no "
+          "picture, or no frame set of 3 s has a new one of both",
+          LiveStream::kType),
       get<&AlignRoutes::direction>(
           "/api/v1/alignment/direction", Viewer, of.alignment,
           "Returns the direction, seen from the ball's centre, of a pixel in a camera's picture, "

@@ -28,6 +28,14 @@ class OnePicture : public WatchedCameras {
   void ask(std::size_t /*camera*/, std::function<void(RecordedPicture)> reader) override {
     reader(copied(picture_of_mat(picture_), {}));
   }
+  void ask_together(std::vector<std::size_t> cameras,
+                    std::function<void(Result<std::vector<RecordedPicture>>)> reader) override {
+    std::vector<RecordedPicture> pictures;
+    for (std::size_t n = 0; n < cameras.size(); ++n) {
+      pictures.push_back(copied(picture_of_mat(picture_), {}));
+    }
+    reader(std::move(pictures));
+  }
   Result<std::vector<std::vector<RecordedPicture>>> record(
       const std::vector<std::size_t>& cameras, std::size_t count,
       std::chrono::seconds /*patience*/) override {

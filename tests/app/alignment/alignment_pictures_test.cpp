@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <future>
 #include <string>
 #include <utility>
 
@@ -25,15 +26,22 @@ class AlignmentPicturesTest : public tests::TwoWatchedCameras {
 
   Result<> ask(
       std::size_t camera, AlignmentSource::IsWanted is_wanted = [] { return true; }) {
-    const auto ball = optics::ball_projection(site.rig, site.rig.cameras[camera]);
     return pictures.request(
-        {camera, {}, false, {}}, ball.value(),
-        [this](const Result<std::string>&, hal::TimePoint of) {
-          made_of = of;
+        {camera, {}, false, {}}, {ball(camera)},
+        [this](const Result<AlignmentJpegs>& jpegs) {
+          if (jpegs) made_of = jpegs->stamp;
           on_made();
           ++made;
         },
         std::move(is_wanted));
+  }
+  /// A pair of the first camera's picture and that of the second one.
+  Result<> ask_pair(AlignmentSource::OnPictures on_pictures) {
+    return pictures.request({1, {}, false, {}, true}, {ball(0), ball(1)}, std::move(on_pictures),
+                            [] { return true; });
+  }
+  optics::BallProjection ball(std::size_t camera) const {
+    return optics::ball_projection(site.rig, site.rig.cameras[camera]).value();
   }
   void show(std::size_t camera) {
     hal::FrameSet set;
@@ -83,6 +91,33 @@ TEST_F(AlignmentPicturesTest, OneAskedForWhileAnotherIsMadeIsMadeOfTheNextFrame)
   EXPECT_EQ(made, 2U);
   EXPECT_GT(made_of, begin + std::chrono::milliseconds(40)) << "the first one's";
   EXPECT_LE(made_of, stamp);
+}
+
+TEST_F(AlignmentPicturesTest, APairIsOfTheSetThatHasBoth) {
+  std::promise<Result<AlignmentJpegs>> made_pair;
+  ASSERT_TRUE(ask_pair([&](Result<AlignmentJpegs> pair) { made_pair.set_value(std::move(pair)); }));
+  show(0);
+  show(1);
+  hal::FrameSet set;
+  set.stamp = stamp += std::chrono::milliseconds(40);
+  set.frames[0] = frame();
+  set.frames[1] = frame();
+  watch->accept_frames(set);
+  const auto pair = made_pair.get_future().get();
+  ASSERT_TRUE(pair) << pair.error().message;
+  EXPECT_EQ(pair->files.size(), 2U);
+  EXPECT_EQ(pair->stamp, set.stamp);
+}
+
+TEST_F(AlignmentPicturesTest, APairNeedsBothCameras) {
+  Status status;
+  status.camera_count = kCameras;
+  status.cameras[0].fault = hal::Fault::Unplugged;
+  watch->accept(status);
+  const auto refused = ask_pair([](const Result<AlignmentJpegs>&) {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "first camera: there is no picture: camera is not connected, or cannot be opened");
 }
 
 TEST_F(AlignmentPicturesTest, OfACameraWithAFaultAreRefusedAtOnce) {

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <future>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "tests/app/watch/two_watched_cameras.h"
 
@@ -37,6 +41,69 @@ TEST_F(CameraWatchTest, WhatIsRecordedOfSeveralCamerasIsOfTheSameMoments) {
     together += std::ranges::count((*records)[1], one.time, &RecordedPicture::time);
   }
   EXPECT_GE(together, kCount - 1);
+}
+
+/// Asks for pictures of both cameras and shows sets, whose frames have their number in each pixel.
+class TogetherTest : public CameraWatchTest {
+ protected:
+  using Pictures = Result<std::vector<RecordedPicture>>;
+
+  std::future<Pictures> ask() {
+    const auto answered = std::make_shared<std::promise<Pictures>>();
+    watch->ask_together({0, 1},
+                        [answered](Pictures taken) { answered->set_value(std::move(taken)); });
+    return answered->get_future();
+  }
+  /// A set with a new frame of each of `cameras` and a held one of the others.
+  void show(const std::vector<std::size_t>& cameras) {
+    ++set.id;
+    set.stamp = stamp += std::chrono::milliseconds(40);
+    set.held.fill(true);
+    for (const std::size_t camera : cameras) {
+      set.frames[camera] = frame();
+      std::memset(set.frames[camera]->memory, static_cast<int>(set.id % 251),
+                  set.frames[camera]->capacity);
+      set.held[camera] = false;
+    }
+    watch->accept_frames(set);
+  }
+
+  hal::FrameSet set;
+};
+
+TEST_F(TogetherTest, PicturesAreOfOneSet) {
+  for (int asked = 0; asked < 5; ++asked) {
+    auto answer = ask();
+    while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+      show({0});
+      show({1});
+      show({0, 1});
+    }
+    const Pictures pictures = answer.get();
+    ASSERT_TRUE(pictures) << pictures.error().message;
+    ASSERT_EQ(pictures->size(), kCameras);
+    const RecordedPicture& first = (*pictures)[0];
+    const RecordedPicture& second = (*pictures)[1];
+    EXPECT_EQ(first.time, second.time);
+    EXPECT_EQ(first.storage[0], second.storage[0]);
+    EXPECT_NE(first.storage[0], std::byte{0});
+  }
+}
+
+TEST_F(TogetherTest, CamerasThatNeverShareASetAreRefused) {
+  auto answer = ask();
+  for (hal::Clock::duration shown{0}; shown <= FrameSetCopies::kPatience;
+       shown += std::chrono::milliseconds(40)) {
+    show({set.id % 2});
+  }
+  const Pictures pictures = answer.get();
+  ASSERT_FALSE(pictures);
+  EXPECT_EQ(pictures.error().message,
+            "no frame set of 3 s has a new picture of each camera: one delivers none, or they are "
+            "not exposed together");
+  auto next = ask();
+  show({0, 1});
+  EXPECT_TRUE(next.get()) << "the next one is served";
 }
 
 TEST_F(CameraWatchTest, SaysThatACameraIsNotRegistered) {

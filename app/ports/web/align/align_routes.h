@@ -23,6 +23,8 @@ class AlignRoutes {
   Response state() const;
   void ball(const CameraQuery& query, const ExchangePtr& exchange) const;
   void view(const CameraViewQuery& query, const ExchangePtr& exchange) const;
+  /// Answers with two messages in the form of LiveStream.
+  void pair(const CameraViewQuery& query, const ExchangePtr& exchange) const;
   Answered<DirectionAnswer> direction(const CameraPixelQuery& query) const;
 
  private:

@@ -218,6 +218,7 @@ export const texts = {
   },
   compare: {
     canvas: "One view by both cameras",
+    both: (first, second) => `${first}, ${second}, of one frame set`,
     way: "Compare by",
     blink: "blink",
     blend: "blend",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "tests/app/ports/web/served.h"
@@ -43,13 +44,16 @@ class Source : public AlignmentSource {
     if (camera != 0 || pixel.u != 10.5) return std::nullopt;
     return normalized(optics::Vec3{1, 1, std::sqrt(2)});
   }
-  Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+  Result<> request(const AlignmentPicture& picture, OnPictures on_pictures,
                    IsWanted /*is_wanted*/) override {
-    if (picture.camera == 1) return fail("the camera is not watched");
+    if (picture.camera == 1 && !picture.is_beside_first) return fail("the camera is not watched");
     const std::lock_guard lock(mutex_);
     asked_ = picture;
     // Called later and elsewhere, like by cameras.
-    pictures_.emplace_back([on_picture = std::move(on_picture)] { on_picture("a picture", {}); });
+    const AlignmentJpegs one{hal::Clock::now(), {"a picture"}};
+    const AlignmentJpegs both{one.stamp, {"the first", "the second one"}};
+    pictures_.emplace_back([on_pictures = std::move(on_pictures),
+                            made = picture.is_beside_first ? both : one] { on_pictures(made); });
     return {};
   }
   std::atomic<std::size_t> steps{2};
@@ -150,6 +154,31 @@ TEST_F(ServedAlignment, AViewIsWhatWasAskedFor) {
   EXPECT_EQ(asked.view->h_fov, 60);
   EXPECT_EQ(asked.view->width, 320);
   EXPECT_EQ(asked.view->height, 200);
+}
+
+TEST_F(ServedAlignment, APairIsTwoMessagesOfOneTime) {
+  const Answer answer =
+      get(port(), "/api/v1/alignment/pair?camera=" + names[1] + "&which=proposed&yaw=-30.5");
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  EXPECT_TRUE(source.asked().is_beside_first);
+  EXPECT_TRUE(source.asked().is_proposed);
+  EXPECT_EQ(source.asked().camera, 1U);
+  EXPECT_EQ(source.asked().view->orientation.yaw, -30.5);
+  std::istringstream body(answer.body);
+  std::vector<json> heads;
+  for (const std::string file : {"the first", "the second one"}) {
+    std::string head;
+    ASSERT_TRUE(std::getline(body, head));
+    heads.push_back(json::parse(head));
+    std::string read(heads.back()["bytes"].get<std::size_t>(), ' ');
+    body.read(read.data(), static_cast<std::streamsize>(read.size()));
+    EXPECT_EQ(read, file);
+  }
+  EXPECT_EQ(heads[0]["camera"], names[0]);
+  EXPECT_EQ(heads[1]["camera"], names[1]);
+  EXPECT_EQ(heads[0]["stamp"], heads[1]["stamp"]);
+  EXPECT_EQ(heads[0]["age_ms"], heads[1]["age_ms"]);
+  EXPECT_GE(heads[0]["age_ms"], 0);
 }
 
 TEST_F(ServedAlignment, WhatIsWrongIsNamed) {

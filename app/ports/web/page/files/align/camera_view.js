@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A view from one camera alone, to judge its alignment: its direction, and its picture.
+// A view from one camera alone, or from two at one moment, to judge alignments: its direction, and its
+// pictures.
+import { Framing } from "../appliance/framing.js";
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -38,11 +40,24 @@ export class ViewFields {
   }
 }
 
-export async function pictureOf(query) {
+async function answerOf(route, query) {
   const all = new URLSearchParams([...query, ["width", kSide], ["height", kSide]]);
-  const answer = await fetch(`api/v1/alignment/view.jpg?${all}`);
+  const answer = await fetch(`api/v1/alignment/${route}?${all}`);
   if (!answer.ok) throw new Error((await answer.json()).error);
-  return createImageBitmap(await answer.blob());
+  return answer;
+}
+
+export async function pictureOf(query) {
+  return createImageBitmap(await (await answerOf("view.jpg", query)).blob());
+}
+
+// Pictures of the first camera and of another one, made from frames of one set, with its stamp.
+export async function pairOf(query) {
+  const bytes = new Uint8Array(await (await answerOf("pair", query)).arrayBuffer());
+  const messages = new Framing().push(bytes);
+  const pictures = await Promise.all(messages.map(({ body }) =>
+    createImageBitmap(new Blob([body], { type: "image/jpeg" }))));
+  return { pictures, stamp: messages[0].head.stamp };
 }
 
 export function viewCanvas(label) {

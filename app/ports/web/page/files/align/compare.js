@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One view from two cameras, one over the other.
+// One view from two cameras at one moment, one over the other.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { kSide, viewCanvas } from "./camera_view.js";
@@ -50,12 +50,13 @@ export class Comparison {
     }, kBlinkMs);
   }
 
-  // `names` of both pictures, which it owns from now on.
-  show(pictures, names) {
+  // `names` of both pictures, which it owns from now on. `stamp`: that of their frame set.
+  show({ pictures, stamp }, names) {
     for (const picture of this.#pictures) picture.close();
     this.#pictures = pictures;
     this.names = names;
     this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
+    this.canvas.dataset.stamp = stamp;
     this.#draw();
   }
 
@@ -64,6 +65,7 @@ export class Comparison {
     const way = this.way.value;
     kWays[way](this.canvas.getContext("2d"), this.#pictures,
       { isSecond: this.#isSecond, share: Number(this.share.value) });
-    setText(this.legend, way === "blink" ? this.names[this.#isSecond ? 1 : 0] : this.names.join(", "));
+    setText(this.legend, way === "blink" ? this.names[this.#isSecond ? 1 : 0]
+      : texts.compare.both(...this.names));
   }
 }

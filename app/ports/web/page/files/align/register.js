@@ -3,7 +3,7 @@
 import { anglesOf, directionOf } from "../elements/directions.js";
 import { commandButton, element } from "../elements/elements.js";
 import { texts } from "../texts.js";
-import { pictureOf, ViewFields } from "./camera_view.js";
+import { pairOf, ViewFields } from "./camera_view.js";
 import { Comparison } from "./compare.js";
 import { Reload } from "./reload.js";
 
@@ -50,9 +50,8 @@ export class Register {
   }
 
   async #load() {
-    const names = [this.#cameras[0].name, this.#camera.name], query = this.view.query;
-    const pictures = await Promise.all([["in_force", names[0]], ["proposed", names[1]]]
-      .map(([which, camera]) => pictureOf([["camera", camera], ["which", which], ...query])));
-    this.comparison.show(pictures, names);
+    const { name } = this.#camera;
+    const pair = await pairOf([["camera", name], ["which", "proposed"], ...this.view.query]);
+    this.comparison.show(pair, [this.#cameras[0].name, name]);
   }
 }
