@@ -16,32 +16,10 @@ namespace orbwatch::app {
 namespace {
 
 constexpr int kQuality = 90;
-/// Share of the pixels that may be black or white; a lamp or a melt pool takes no more.
-constexpr double kClipped = 0.005;
+/// Percentiles of the values that become black and white.
+constexpr double kBlack = 0.01, kWhite = 0.99;
 
-/// The upper and lower ends of what is there.
-std::pair<double, double> range_of(std::vector<std::uint16_t> sorted) {
-  const auto clipped = static_cast<std::ptrdiff_t>(kClipped * static_cast<double>(sorted.size()));
-  std::ranges::nth_element(sorted, sorted.begin() + clipped);
-  const double low = sorted[static_cast<std::size_t>(clipped)];
-  std::ranges::nth_element(sorted, sorted.end() - 1 - clipped);
-  const double high = *(sorted.end() - 1 - clipped);
-  return {low, std::max(high, low + 1)};
-}
-
-/// 8 bit samples, row by row.
-std::vector<std::uint8_t> stretched(const Picture& picture) {
-  const std::ptrdiff_t pixels = std::ptrdiff_t(picture.width) * picture.height;
-  std::vector<std::uint16_t> counts(static_cast<std::size_t>(pixels));
-  convert(picture, PixelFormat::Y16, reinterpret_cast<std::byte*>(counts.data()));
-  const auto [low, high] = range_of(counts);
-  std::vector<std::uint8_t> grey(counts.size());
-  for (std::size_t n = 0; n < grey.size(); ++n) {
-    const double share = (counts[n] - low) / (high - low);
-    grey[n] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
-  }
-  return grey;
-}
+using Counts = std::vector<std::uint16_t>;
 
 Result<std::string> encoded(const Picture& picture) {
   JpegEncoder encoder;
@@ -50,34 +28,83 @@ Result<std::string> encoded(const Picture& picture) {
   });
 }
 
-Result<std::string> shown(const Picture& picture, const optics::BallProjection& ball,
-                          const std::optional<optics::ViewSpec>& view) {
-  if (!view) return encoded(picture);
-  if (picture.format != PixelFormat::Grey && !remap::can_remap(picture.format, PixelFormat::Rgb)) {
-    return fail("pictures of format " + std::string(info(picture.format).name) +
-                " are not turned into views");
+/// Counts of luminance of any depth, row by row.
+Counts counts_of(const Picture& picture) {
+  Counts counts(static_cast<std::size_t>(picture.width) * picture.height);
+  if (info(picture.format).bits > 8) {
+    convert(picture, PixelFormat::Y16, reinterpret_cast<std::byte*>(counts.data()));
+    return counts;
   }
-  const bool is_grey = picture.format == PixelFormat::Grey;
-  return optics::ViewProjection::make(*view, ball).and_then([&](optics::ViewProjection projection) {
-    const pipeline::StillPlan plan{std::move(projection),
-                                   is_grey ? PixelFormat::Grey : PixelFormat::Rgb};
-    const pipeline::StillSource source{picture, ball};
-    return encoded(render_once(plan, {&source, 1}).picture);
+  std::vector<std::uint8_t> grey(counts.size());
+  convert(picture, PixelFormat::Grey, reinterpret_cast<std::byte*>(grey.data()));
+  std::ranges::copy(grey, counts.begin());
+  return counts;
+}
+
+/// Counts that become black and white, by those that are `seen`.
+std::pair<double, double> range_of(Counts seen) {
+  if (seen.empty()) return {0, 1};
+  const auto percentile = [&](double share) {
+    const auto place = seen.begin() + std::lround(share * static_cast<double>(seen.size() - 1));
+    std::ranges::nth_element(seen, place);
+    return static_cast<double>(*place);
+  };
+  const double low = percentile(kBlack);
+  return {low, std::max(percentile(kWhite), low + 1)};
+}
+
+Result<std::string> stretched(const Counts& counts, Counts seen, int width, int height) {
+  const auto [low, high] = range_of(std::move(seen));
+  std::vector<std::uint8_t> grey(counts.size());
+  std::ranges::transform(counts, grey.begin(), [low, high](std::uint16_t count) {
+    const double share = (count - low) / (high - low);
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
   });
+  return encoded(
+      picture_of(PixelFormat::Grey, ImageView<std::uint8_t>{grey.data(), width, height, 1, width}));
+}
+
+Result<pipeline::StillView> rendered(const Picture& picture, const optics::BallProjection& ball,
+                                     const optics::ViewSpec& view, PixelFormat format) {
+  return optics::ViewProjection::make(view, ball).map([&](optics::ViewProjection projection) {
+    const pipeline::StillSource source{picture, ball};
+    return pipeline::render_once({std::move(projection), format}, {&source, 1});
+  });
+}
+
+Result<std::string> luminance_jpeg(const Picture& picture, const optics::BallProjection& ball,
+                                   const std::optional<optics::ViewSpec>& view) {
+  Counts counts = counts_of(picture);
+  if (!view) return stretched(counts, counts, picture.width, picture.height);
+  const ImageView<std::uint16_t> samples{counts.data(), picture.width, picture.height, 1,
+                                         picture.width};
+  return rendered(picture_of(PixelFormat::Y16, samples), ball, *view, PixelFormat::Y16)
+      .and_then([](const pipeline::StillView& still) {
+        const Counts shown = counts_of(still.picture);
+        Counts seen;
+        for (std::size_t n = 0; n < shown.size(); ++n) {
+          if (still.validity[n] == static_cast<std::uint8_t>(Validity::Seen)) {
+            seen.push_back(shown[n]);
+          }
+        }
+        return stretched(shown, std::move(seen), still.picture.width, still.picture.height);
+      });
 }
 
 }  // namespace
 
 Result<std::string> alignment_jpeg(const Picture& picture, const optics::BallProjection& ball,
                                    const std::optional<optics::ViewSpec>& view) {
-  const PixelFormatInfo& facts = info(picture.format);
-  if (facts.colour == ColourModel::Luminance && facts.bits > 8) {
-    std::vector<std::uint8_t> grey = stretched(picture);
-    const ImageView<std::uint8_t> samples{grey.data(), picture.width, picture.height, 1,
-                                          picture.width};
-    return shown(picture_of(PixelFormat::Grey, samples), ball, view);
+  if (info(picture.format).colour == ColourModel::Luminance) {
+    return luminance_jpeg(picture, ball, view);
   }
-  return shown(picture, ball, view);
+  if (!view) return encoded(picture);
+  if (!remap::can_remap(picture.format, PixelFormat::Rgb)) {
+    return fail("pictures of format " + std::string(info(picture.format).name) +
+                " are not turned into views");
+  }
+  return rendered(picture, ball, *view, PixelFormat::Rgb)
+      .and_then([](const pipeline::StillView& still) { return encoded(still.picture); });
 }
 
 }  // namespace orbwatch::app

@@ -11,9 +11,9 @@
 
 namespace orbwatch::app {
 
-/// A camera's picture as a JPEG file, or the view that it shows through `ball`. Of more than 8 bits
-/// luminance the range that is there is stretched to 8. Reentrant. Error: a view that is
-/// impossible, a format that cannot be shown, out of memory.
+/// A camera's picture as a JPEG file, or the view that it shows through `ball`. One channel is
+/// stretched: black is the 1st, white the 99th percentile of the values that the file shows.
+/// Reentrant. Error: a view that is impossible, a format that cannot be shown, out of memory.
 Result<std::string> alignment_jpeg(const Picture& picture, const optics::BallProjection& ball,
                                    const std::optional<optics::ViewSpec>& view);
 

@@ -43,8 +43,8 @@ class AlignCase(PageCase):
             By.CSS_SELECTOR, f"#align [name=camera] option[value={camera}]"))
         Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
                ).select_by_value(camera)
-        eventually("a picture", lambda: self.browser.execute_script(
-            "return document.querySelector('#align .ball canvas').dataset.number"))
+        eventually("a picture of this camera",
+                   lambda: self.browser.text("#align .ball .age").endswith("old"))
 
     def answer(self, path, body=None):
         """Answer to a request without a browser, like curl's."""
@@ -116,6 +116,20 @@ class AlignCase(PageCase):
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "ERR_" not in entry["message"] and "status of 5" not in entry["message"]
                           and not ("/pair?" in entry["message"] and "409" in entry["message"])], [])
+
+
+class Brightness(AlignCase):
+    def test_a_thermal_picture_is_stretched_and_says_so(self):
+        self.open("thermal")
+        # Sums of three equal samples.
+        grey = numpy.array(self.browser.pixels("#align .ball canvas")) / 3
+        black, white = numpy.percentile(grey, [1, 99])
+        self.assertLess(black, 15)
+        self.assertGreater(white, 240)
+        self.assertIn("stretched: 1st to 99th percentile",
+                      self.browser.text("#align .ball figcaption"))
+        self.browser.keep_picture("align-thermal")
+        self.expect_no_complaint()
 
 
 class Fingers(AlignCase):

@@ -69,7 +69,8 @@ struct AlignmentPicture {
   bool is_beside_first = false;
 };
 
-/// JPEG files of frames of one set. The occurring range of 16-bit luminance is stretched to 8 bits.
+/// JPEG files of frames of one set. One-channel pictures are stretched: black is the 1st, white the
+/// 99th percentile of their values.
 struct AlignmentJpegs {
   hal::TimePoint stamp;            ///< the set's
   std::vector<std::string> files;  ///< of a pair, the first camera's comes first

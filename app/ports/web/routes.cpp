@@ -112,8 +112,11 @@ std::vector<Route> alignment_routes(const RouteOwners& of) {
           "Returns per camera the ball's outline, the pose, the proposal, the points with "
           "residuals, and the scene's edges as seen from the ball's centre and in the picture. The "
           "ETag changes with the answer"),
-      get<&AlignRoutes::ball>("/api/v1/alignment/ball.jpg", Viewer, of.alignment,
-                              "Returns a camera's next picture in full resolution", kJpeg),
+      get<&AlignRoutes::ball>(
+          "/api/v1/alignment/ball.jpg", Viewer, of.alignment,
+          "Returns a camera's next picture in full resolution; one channel is stretched between "
+          "the 1st and the 99th percentile of its values, here and in views",
+          kJpeg),
       get<&AlignRoutes::view>(
           "/api/v1/alignment/view.jpg", Viewer, of.alignment,
           "Returns the next perspective view from one camera alone, to judge its alignment", kJpeg),

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
@@ -39,6 +42,34 @@ Picture picture(std::vector<std::uint16_t>& samples) {
                     ImageView<std::uint16_t>{samples.data(), kViewSide, kViewSide, 1, kViewSide});
 }
 
+/// Makes the first pixels hot, a share of all.
+template <class Sample>
+void heat(std::vector<Sample>& samples, double share) {
+  std::fill_n(samples.begin(), std::lround(share * static_cast<double>(samples.size())),
+              std::numeric_limits<Sample>::max());
+}
+
+TEST(AlignmentJpeg, AMeltPoolDoesNotDarkenTheRoom) {
+  auto samples = counts(7400);
+  heat(samples, 0.008);
+  const auto jpeg = alignment_jpeg(picture(samples), ball(), std::nullopt);
+  ASSERT_TRUE(jpeg) << jpeg.error().message;
+  const cv::Mat shown = decoded(*jpeg);
+  EXPECT_LT(shown.at<std::uint8_t>(100, 20), 10);
+  EXPECT_GT(shown.at<std::uint8_t>(100, 180), 245);
+}
+
+TEST(AlignmentJpeg, EightBitsAreStretched) {
+  std::vector<std::uint8_t> samples(kViewSide * kViewSide, 20);
+  std::fill(samples.begin() + kViewSide * kViewSide / 2, samples.end(), std::uint8_t{28});
+  const ImageView<std::uint8_t> dark{samples.data(), kViewSide, kViewSide, 1, kViewSide};
+  const auto jpeg = alignment_jpeg(picture_of(PixelFormat::Grey, dark), ball(), std::nullopt);
+  ASSERT_TRUE(jpeg) << jpeg.error().message;
+  const cv::Mat shown = decoded(*jpeg);
+  EXPECT_LT(shown.at<std::uint8_t>(50, 100), 10);
+  EXPECT_GT(shown.at<std::uint8_t>(150, 100), 245);
+}
+
 TEST(AlignmentJpeg, OfCountsTheRangeThatIsThereIsShown) {
   for (const std::uint16_t base : {100, 7400, 60000}) {
     auto samples = counts(base);
@@ -63,6 +94,20 @@ TEST(AlignmentJpeg, AViewIsMadeThroughTheBall) {
   ASSERT_TRUE(jpeg) << jpeg.error().message;
   const cv::Mat shown = decoded(*jpeg);
   ASSERT_EQ(shown.size(), cv::Size(120, 80));
+  EXPECT_GT(shown.at<std::uint8_t>(20, 10), 245);
+  EXPECT_LT(shown.at<std::uint8_t>(20, 110), 10);
+}
+
+TEST(AlignmentJpeg, AViewIsStretchedByItsOwnValues) {
+  auto samples = counts(7400);
+  heat(samples, 0.05);  // beside the ball
+  optics::ViewSpec spec;
+  spec.h_fov = 90;
+  spec.width = 120;
+  spec.height = 80;
+  const auto jpeg = alignment_jpeg(picture(samples), ball(), spec);
+  ASSERT_TRUE(jpeg) << jpeg.error().message;
+  const cv::Mat shown = decoded(*jpeg);
   EXPECT_GT(shown.at<std::uint8_t>(20, 10), 245);
   EXPECT_LT(shown.at<std::uint8_t>(20, 110), 10);
 }

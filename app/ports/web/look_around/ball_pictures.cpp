@@ -37,18 +37,19 @@ std::vector<LiveStream::Source> BallPictures::feeds() const {
 void BallPictures::follow() {
   for (const Ball& ball : balls_) {
     if (!ball.feed->is_wanted() || ball.is_requested->exchange(true)) continue;
-    const auto on_picture = [feed = ball.feed, is_requested = ball.is_requested](
-                                Result<std::string> jpeg, hal::TimePoint stamp) {
-      if (jpeg) {
-        feed->publish(std::make_shared<const std::string>(std::move(*jpeg)), stamp);
+    const auto on_pictures = [feed = ball.feed,
+                              is_requested = ball.is_requested](Result<AlignmentJpegs> made) {
+      if (made) {
+        feed->publish(std::make_shared<const std::string>(std::move(made->files.front())),
+                      made->stamp);
       } else {
-        log_line(LogLevel::Error, "web: " + jpeg.error().message);
+        log_line(LogLevel::Error, "web: " + made.error().message);
       }
       *is_requested = false;
     };
     AlignmentPicture picture;
     picture.camera = ball.camera;
-    if (!source_->request(picture, on_picture, [] { return true; })) *ball.is_requested = false;
+    if (!source_->request(picture, on_pictures, [] { return true; })) *ball.is_requested = false;
   }
 }
 

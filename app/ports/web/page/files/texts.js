@@ -103,6 +103,7 @@ export const texts = {
     discard: "Discard",
     revert: "Back to the alignment before",
     picture: "Picture of the camera",
+    stretched: "One channel is stretched: 1st to 99th percentile",
     outlineGroup: "The ball's outline and the scene's edges",
     help: "Drag the middle of the ball or one of its radii onto the limb; arrow keys move them by 0.1 " +
       "pixel, with shift by 1. Thin lines show the machine's edges by the alignment: drag one " +

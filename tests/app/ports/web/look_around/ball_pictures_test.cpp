@@ -33,7 +33,7 @@ class Cameras : public AlignmentSource {
                                         const optics::Vec2& /*pixel*/) const override {
     return std::nullopt;
   }
-  Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+  Result<> request(const AlignmentPicture& picture, OnPictures on_pictures,
                    IsWanted is_wanted) override {
     if (is_unplugged) return fail("there is no picture");
     EXPECT_TRUE(is_wanted());
@@ -41,14 +41,16 @@ class Cameras : public AlignmentSource {
     const std::lock_guard lock(mutex_);
     asked.push_back(picture.camera);
     if (delivers_) {
-      threads_.emplace_back([on_picture] { on_picture("a picture", hal::Clock::now()); });
+      threads_.emplace_back([on_pictures] {
+        on_pictures(AlignmentJpegs{hal::Clock::now(), {"a picture"}});
+      });
     } else {
-      waiting_.push_back(std::move(on_picture));
+      waiting_.push_back(std::move(on_pictures));
     }
     return {};
   }
-  void deliver(Result<std::string> jpeg, hal::TimePoint stamp) {
-    for (const OnPicture& on_picture : std::exchange(waiting_, {})) on_picture(jpeg, stamp);
+  void deliver(const Result<AlignmentJpegs>& made) {
+    for (const OnPictures& on_pictures : std::exchange(waiting_, {})) on_pictures(made);
   }
 
   std::vector<std::size_t> asked;  ///< cameras in the order of their requests
@@ -58,7 +60,7 @@ class Cameras : public AlignmentSource {
  private:
   const bool delivers_;
   std::mutex mutex_;
-  std::vector<OnPicture> waiting_;
+  std::vector<OnPictures> waiting_;
   std::vector<std::jthread> threads_;
 };
 
@@ -94,7 +96,7 @@ TEST(BallPictures, AreRequestedOnlyWhileTheyAreRead) {
     balls.follow();
     balls.follow();
     EXPECT_THAT(cameras.asked, ElementsAre(1U)) << "one at a time";
-    cameras.deliver("a picture", stamp);
+    cameras.deliver(AlignmentJpegs{stamp, {"a picture"}});
     const auto item = reader.next();
     ASSERT_TRUE(item);
     EXPECT_EQ(*item->bytes, "a picture");
@@ -102,7 +104,7 @@ TEST(BallPictures, AreRequestedOnlyWhileTheyAreRead) {
     EXPECT_FALSE(item->aim) << "nobody can turn it";
     balls.follow();
     EXPECT_THAT(cameras.asked, ElementsAre(1U, 1U));
-    cameras.deliver("the next picture", stamp);
+    cameras.deliver(AlignmentJpegs{stamp, {"the next picture"}});
   }
   balls.follow();
   EXPECT_THAT(cameras.asked, ElementsAre(1U, 1U)) << "the reader has gone";
@@ -118,7 +120,7 @@ TEST(BallPictures, ContinueAfterAFaultAndAFailure) {
   cameras.is_unplugged = false;
   balls.follow();
   EXPECT_THAT(cameras.asked, ElementsAre(0U));
-  cameras.deliver(fail("out of memory"), {});
+  cameras.deliver(fail("out of memory"));
   EXPECT_FALSE(reader.next());
   balls.follow();
   EXPECT_THAT(cameras.asked, ElementsAre(0U, 0U));

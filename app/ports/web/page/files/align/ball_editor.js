@@ -5,6 +5,7 @@ import { element } from "../elements/elements.js";
 import { Freshness } from "../elements/freshness.js";
 import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
+import { caption } from "./camera_view.js";
 
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
@@ -71,7 +72,7 @@ export class BallEditor {
     const seen = element("div", { className: "picture" }, this.canvas, this.svg);
     this.freshness = new Freshness(seen, kStaleMs);
     this.root = element("figure", { className: "ball" }, seen,
-      element("figcaption", {}, this.freshness.age));
+      caption(this.freshness.age));
     new ResizeObserver(() => this.#draw()).observe(this.svg);
   }
 

@@ -60,6 +60,11 @@ export async function pairOf(query) {
   return { pictures, stamp: messages[0].head.stamp };
 }
 
+// Line below a picture. `more` comes first.
+export function caption(...more) {
+  return element("figcaption", {}, ...more, element("span", { className: "quiet" }, texts.align.stretched));
+}
+
 export function viewCanvas(label) {
   const canvas = element("canvas", { role: "img", "aria-label": label });
   canvas.width = canvas.height = kSide;

@@ -2,7 +2,7 @@
 // One view from two cameras at one moment, one over the other.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
-import { kSide, viewCanvas } from "./camera_view.js";
+import { caption, kSide, viewCanvas } from "./camera_view.js";
 
 const kBlinkMs = 500;  // two changes per second are not disturbing
 const kSquares = 8;    // squares of the checkerboard in each direction
@@ -41,7 +41,7 @@ export class Comparison {
     this.legend = element("span", { className: "age" });
     this.root = element("figure", { className: "view" },
       element("div", { className: "picture" }, this.canvas),
-      element("figcaption", {}, element("label", {}, texts.compare.way, " ", this.way),
+      caption(element("label", {}, texts.compare.way, " ", this.way),
         element("label", {}, texts.compare.share, " ", this.share), this.legend));
     setInterval(() => {
       if (this.way.value !== "blink" || this.root.offsetParent === null) return;

@@ -5,7 +5,7 @@ import { turnBetween } from "../elements/directions.js";
 import { element } from "../elements/elements.js";
 import { drawn, followPull, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
-import { kSide, pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
+import { caption, kSide, pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
 import { Perspective } from "./perspective.js";
 import { Reload } from "./reload.js";
 
@@ -27,7 +27,7 @@ export class SceneView {
     this.root = element("section", { id: "scene" }, element("h3", {}, texts.sceneView.title),
       element("p", {}, texts.sceneView.help), this.view.root, this.#picture.refused,
       element("figure", { className: "ball view" },
-        element("div", { className: "picture" }, this.canvas, this.svg)));
+        element("div", { className: "picture" }, this.canvas, this.svg), caption()));
   }
 
   show(camera) {
