@@ -5,6 +5,7 @@ Folders: app/ports/web/align app/ports/web/page/files/align app/alignment app/wa
 """
 
 import json
+import signal
 import tomllib
 import unittest
 import urllib.request
@@ -129,6 +130,61 @@ class Brightness(AlignCase):
         self.assertIn("stretched: 1st to 99th percentile",
                       self.browser.text("#align .ball figcaption"))
         self.browser.keep_picture("align-thermal")
+        self.expect_no_complaint()
+
+
+class Veils(AlignCase):
+    def tearDown(self):
+        if (self.camera() or {}).get("proposed"):
+            self.answer("api/v1/command/discard_alignment", {"camera": 0})
+
+    def propose(self):
+        self.open("colour")
+        self.press("Find the ball")
+        self.found()
+        eventually("it can be accepted", self.can_accept)
+
+    def can_accept(self):
+        return self.browser.find_element(By.XPATH, "//*[@id='align']//button[text()='Accept']").is_enabled()
+
+    def reason(self):
+        """Reason why nothing can be accepted, while the button and the picture agree."""
+        veil = self.browser.text("#align .ball .veiled .overlay")
+        reason = self.browser.text("#not-acceptable")
+        return "" if self.can_accept() or not veil or veil not in reason else reason
+
+    def test_nothing_is_accepted_over_the_picture_of_a_lost_camera(self):
+        self.propose()
+        self.appliance.unplug("colour")
+        self.addCleanup(self.appliance.plug_in, "colour")
+        eventually("the reason", lambda: "colour: camera is not connected" in self.reason())
+        eventually("the view is veiled", lambda: "colour: camera is not connected" in self.browser.text(
+            "#scene .veiled .overlay"))
+        self.browser.keep_picture("align-lost")
+        Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
+               ).select_by_value("thermal")
+        eventually("the comparison names its first camera", lambda: "colour: camera is not connected"
+                   in self.browser.text("#register .veiled .overlay"))
+        Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
+               ).select_by_value("colour")
+        self.appliance.plug_in("colour")
+        eventually("it can be accepted again", self.can_accept)
+        self.assertEqual(self.browser.text("#not-acceptable"), "")
+
+    def test_nothing_is_accepted_over_an_old_picture(self):
+        self.propose()
+        self.appliance.daemon.send_signal(signal.SIGSTOP)
+        self.addCleanup(self.appliance.daemon.send_signal, signal.SIGCONT)
+        eventually("the reason", lambda: "No new picture for" in self.reason())
+        self.appliance.daemon.send_signal(signal.SIGCONT)
+        eventually("it can be accepted again", self.can_accept)
+
+    def test_still_pictures_are_replaced_by_newer_ones(self):
+        self.open("thermal")
+        stamp = ("return document.querySelector('#register canvas').dataset.stamp")
+        first = eventually("a comparison", lambda: self.browser.execute_script(stamp))
+        eventually("a newer one", lambda: self.browser.execute_script(stamp) > first)
+        self.assertRegex(self.browser.text("#register .age"), "old$")
         self.expect_no_complaint()
 
 

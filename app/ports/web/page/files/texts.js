@@ -100,6 +100,7 @@ export const texts = {
     detect: "Find the ball",
     undo: "Undo",
     accept: "Accept",
+    notAcceptable: (why) => `Nothing can be accepted over this picture: ${why}`,
     discard: "Discard",
     revert: "Back to the alignment before",
     picture: "Picture of the camera",

@@ -50,6 +50,8 @@ export class Align {
       ["detect", "detect_ball"], ["undo", "undo_alignment"], ["accept", "accept_alignment"],
       ["discard", "discard_alignment"], ["revert", "revert_alignment"],
     ].map(([name, given]) => [name, commandButton(texts.align[name], given, give)]));
+    this.blocked = element("p", { id: "not-acceptable", className: "wrong" });
+    this.buttons.accept.setAttribute("aria-describedby", this.blocked.id);
     this.facts = element("p", { className: "where" });
     this.register = new Register(give);
     this.scene = new SceneView(give);
@@ -58,12 +60,12 @@ export class Align {
     root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
       this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
       element("p", { className: "buttons" }, ...nudges(give)),
-      this.said, this.refused, this.facts, element("p", {}, texts.align.help),
+      this.blocked, this.said, this.refused, this.facts, element("p", {}, texts.align.help),
       this.register.root, this.place.root, this.scene.root, this.models.root, this.watched.root);
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
-    setInterval(() => this.editor.freshness.tick(this.faults.ofCamera(this.choice.value)), 250);
+    setInterval(() => this.#age(), 250);
   }
 
   status({ cameras }, now) {
@@ -115,6 +117,18 @@ export class Align {
     this.#isRunning = false;
   }
 
+  // Veils old pictures and those of cameras with a fault. No outline is accepted over such a picture of its ball.
+  #age() {
+    const fault = this.faults.ofCamera(this.choice.value), ball = this.editor.freshness;
+    const first = this.faults.ofCamera(this.#cameras[0]?.name);
+    const why = ball.tick(fault) || (ball.hasPicture ? "" : texts.noPicture);
+    this.scene.freshness.tick(fault);
+    this.register.comparison.freshness.tick([first, fault].filter(Boolean).join(". "));
+    const isReady = this.#camera?.state === this.states.ready;
+    this.buttons.accept.disabled = !isReady || why !== "";
+    setText(this.blocked, isReady && why ? texts.align.notAcceptable(why) : "");
+  }
+
   #waitAfter(error) {
     setText(this.said, texts.align.waiting(error.message));
   }
@@ -146,7 +160,7 @@ export class Align {
 
   #show(camera) {
     const { proposed, in_force: inForce, state } = camera;
-    const isReady = state === this.states.ready, isWorking = state === this.states.working;
+    const isWorking = state === this.states.working;
     this.editor.show(camera);
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
@@ -156,10 +170,10 @@ export class Align {
     this.register.show(this.#cameras, camera, isWorking);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);
-    this.buttons.accept.disabled = !isReady;
     this.buttons.discard.disabled =
       isWorking || (state === this.states.none && camera.steps === 0);
     this.buttons.revert.disabled = isWorking || !inForce?.method;
+    this.#age();
   }
 
   #words({ is_watched: isWatched, state, state_text: text, refusal, proposed, in_force: inForce }) {

@@ -5,13 +5,12 @@ import { element } from "../elements/elements.js";
 import { Freshness } from "../elements/freshness.js";
 import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
-import { caption } from "./camera_view.js";
+import { caption, kStaleMs } from "./camera_view.js";
 
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
 const kHandlePx = 11, kMarkPx = 6;  // screen px
-const kStaleMs = 5000;  // a picture in full resolution comes every few seconds over a slow link
 
 // Unit vectors along the axes.
 function axes({ angle }) {

@@ -6,6 +6,7 @@ import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 export const kSide = 480;  // px
+export const kStaleMs = 5000;  // over a slow link a picture comes every few seconds
 
 // Direction of a view, as fields of a form and arguments of a query; degrees.
 export class ViewFields {
@@ -51,13 +52,15 @@ export async function pictureOf(query) {
   return createImageBitmap(await (await answerOf("view.jpg", query)).blob());
 }
 
-// Pictures of the first camera and of another one, made from frames of one set, with its stamp.
+// Pictures of the first camera and of another one, made from frames of one set: its stamp, and its age when they
+// were received, in performance.now().
 export async function pairOf(query) {
   const bytes = new Uint8Array(await (await answerOf("pair", query)).arrayBuffer());
-  const messages = new Framing().push(bytes);
+  const received = performance.now(), messages = new Framing().push(bytes);
   const pictures = await Promise.all(messages.map(({ body }) =>
     createImageBitmap(new Blob([body], { type: "image/jpeg" }))));
-  return { pictures, stamp: messages[0].head.stamp };
+  const { stamp, age_ms } = messages[0].head;
+  return { pictures, stamp, age_ms, received };
 }
 
 // Line below a picture. `more` comes first.

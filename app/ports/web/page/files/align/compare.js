@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One view from two cameras at one moment, one over the other.
 import { element, setText } from "../elements/elements.js";
+import { Freshness } from "../elements/freshness.js";
 import { texts } from "../texts.js";
-import { caption, kSide, viewCanvas } from "./camera_view.js";
+import { caption, kSide, kStaleMs, viewCanvas } from "./camera_view.js";
 
 const kBlinkMs = 500;  // two changes per second are not disturbing
 const kSquares = 8;    // squares of the checkerboard in each direction
@@ -38,11 +39,13 @@ export class Comparison {
     this.share = element("input", { type: "range", name: "share", min: 0, max: 1, step: 0.05, value: 0.5 });
     this.way.addEventListener("change", () => this.#draw());
     this.share.addEventListener("input", () => this.#draw());
-    this.legend = element("span", { className: "age" });
-    this.root = element("figure", { className: "view" },
-      element("div", { className: "picture" }, this.canvas),
+    this.legend = element("span");
+    const seen = element("div", { className: "picture" }, this.canvas);
+    this.freshness = new Freshness(seen, kStaleMs);
+    this.root = element("figure", { className: "view" }, seen,
       caption(element("label", {}, texts.compare.way, " ", this.way),
-        element("label", {}, texts.compare.share, " ", this.share), this.legend));
+        element("label", {}, texts.compare.share, " ", this.share), this.legend,
+        this.freshness.age));
     setInterval(() => {
       if (this.way.value !== "blink" || this.root.offsetParent === null) return;
       this.#isSecond = !this.#isSecond;
@@ -50,9 +53,18 @@ export class Comparison {
     }, kBlinkMs);
   }
 
-  // `names` of both pictures, which it owns from now on. `stamp`: that of their frame set.
-  show({ pictures, stamp }, names) {
+  // Other cameras take their place.
+  forget() {
     for (const picture of this.#pictures) picture.close();
+    this.#pictures = [];
+    this.canvas.width = kSide; // clears it
+    this.freshness.forget();
+  }
+
+  // `names` of the pictures of a pair, which it owns from now on.
+  show({ pictures, stamp, age_ms, received }, names) {
+    for (const picture of this.#pictures) picture.close();
+    this.freshness.drew(age_ms, received);
     this.#pictures = pictures;
     this.names = names;
     this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;

@@ -34,7 +34,11 @@ export class Register {
     this.root.hidden = camera.index === 0;
     this.button.disabled = isWorking || !camera.is_watched;
     if (this.root.hidden) return;
-    if (this.#camera?.name !== camera.name) this.#lookBetween(cameras[0], camera);
+    if (this.#camera?.name !== camera.name) {
+      this.comparison.forget();
+      this.#pictures.forget();
+      this.#lookBetween(cameras[0], camera);
+    }
     this.#camera = camera;
     this.#follow();
   }
@@ -52,6 +56,7 @@ export class Register {
   async #load() {
     const { name } = this.#camera;
     const pair = await pairOf([["camera", name], ["which", "proposed"], ...this.view.query]);
+    if (this.#camera.name !== name) return pair.pictures.forEach((picture) => picture.close());
     this.comparison.show(pair, [this.#cameras[0].name, name]);
   }
 }

@@ -3,9 +3,10 @@
 // onto the machine's edges, they turn the camera.
 import { turnBetween } from "../elements/directions.js";
 import { element } from "../elements/elements.js";
+import { Freshness } from "../elements/freshness.js";
 import { drawn, followPull, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
-import { caption, kSide, pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
+import { caption, kSide, kStaleMs, pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
 import { Perspective } from "./perspective.js";
 import { Reload } from "./reload.js";
 
@@ -24,10 +25,11 @@ export class SceneView {
     this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
     this.svg = drawn("svg", { role: "group", "aria-label": texts.sceneView.edges,
       viewBox: `-0.5 -0.5 ${kSide} ${kSide}` }, this.edges);
+    const seen = element("div", { className: "picture" }, this.canvas, this.svg);
+    this.freshness = new Freshness(seen, kStaleMs);
     this.root = element("section", { id: "scene" }, element("h3", {}, texts.sceneView.title),
       element("p", {}, texts.sceneView.help), this.view.root, this.#picture.refused,
-      element("figure", { className: "ball view" },
-        element("div", { className: "picture" }, this.canvas, this.svg), caption()));
+      element("figure", { className: "ball view" }, seen, caption(this.freshness.age)));
   }
 
   show(camera) {
@@ -37,6 +39,9 @@ export class SceneView {
     if (this.#camera?.name !== name) {
       this.view.turnTo(shown.rotation);
       this.edges.replaceChildren();
+      this.canvas.width = kSide; // clears it
+      this.freshness.forget();
+      this.#picture.forget();
     }
     this.#camera = camera;
     this.#follow();
@@ -51,8 +56,10 @@ export class SceneView {
 
   async #load() {
     const { name, proposed, in_force: inForce } = this.#camera, { query } = this.view;
+    const asked = performance.now();
     const picture = await pictureOf([["camera", name], ["which", "proposed"], ...query]);
-    if (this.#isHeld) return;
+    if (this.#isHeld || this.#camera.name !== name) return picture.close();
+    this.freshness.drew(0, asked);
     this.#perspective = new Perspective(Object.fromEntries(query), kSide);
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     picture.close();

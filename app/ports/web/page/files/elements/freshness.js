@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The age of a live picture, and a veil with the reason over one that is old or whose camera has a fault.
+// The age of a picture that is replaced by newer ones, and a veil with the reason over one that is old or whose
+// camera has a fault.
 import { texts } from "../texts.js";
 import { element, setText } from "./elements.js";
 
@@ -27,13 +28,19 @@ export class Freshness {
     setText(this.age, texts.noPicture);
   }
 
-  // `faults`: of its cameras; empty: none.
+  get hasPicture() {
+    return this.#latest !== null;
+  }
+
+  // `faults`: of its cameras; empty: none. Returns the reason of the veil; empty: there is none.
   tick(faults) {
     const age = this.#latest ? this.#latest.age_ms + performance.now() - this.#latest.received : 0;
     const isOld = age > this.staleMs;
     if (this.#latest) setText(this.age, texts.age(age));
     this.age.classList.toggle("wrong", isOld);
     this.picture.classList.toggle("veiled", isOld || faults !== "");
-    setText(this.overlay, [isOld ? texts.stale(age) : "", faults].filter(Boolean).join(". "));
+    const why = [isOld ? texts.stale(age) : "", faults].filter(Boolean).join(". ");
+    setText(this.overlay, why);
+    return why;
   }
 }
