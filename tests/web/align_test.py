@@ -22,6 +22,7 @@ from misaligned_machine import MisalignedMachine, degrees_between, rotation_of, 
 from page_case import PageCase
 
 READY, REFUSED = 2, 3  # states of a proposal
+GOOD = 1  # state of an alignment that is watched
 CLICK_PX = 5  # px; a shorter drag may count as a click
 VIEW_SIDE = 480  # px
 
@@ -79,11 +80,21 @@ class AlignCase(PageCase):
         return tomllib.loads(file.read_text(encoding="utf-8"))["entry"] if file.exists() else []
 
     def press(self, label):
-        """Presses a button of the page, once it is enabled."""
+        """Presses a button of the page, once it is enabled, in its step."""
         def button():
             return self.browser.find_elements(
                 By.XPATH, f"//*[@id='align']//button[text()='{label}' and not(@disabled)]")
-        eventually(f"{label} can be pressed", button)[0].click()
+        pressed = eventually(f"{label} can be pressed", button)[0]
+        for step in pressed.find_elements(By.XPATH, "ancestor::details[not(@open)]"):
+            step.find_element(By.TAG_NAME, "summary").click()
+        pressed.click()
+
+    def open_step(self, name):
+        """Opens a step of the alignment, which is closed."""
+        self.browser.find_element(By.CSS_SELECTOR, f"#step-{name}:not([open]) > summary").click()
+
+    def state_of(self, step):
+        return self.browser.text(f"#step-{step} .state")
 
     def accept(self, name="colour"):
         """Accepts the proposal; returns once the daemon has restarted with it."""
@@ -117,6 +128,61 @@ class AlignCase(PageCase):
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "ERR_" not in entry["message"] and "status of 5" not in entry["message"]
                           and not ("/pair?" in entry["message"] and "409" in entry["message"])], [])
+
+
+class Steps(AlignCase):
+    def test_the_first_step_needs_no_scrolling(self):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": 1440, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.open()
+        shown = self.browser.execute_script("""
+            const named = (text) => [...document.querySelectorAll('#align button')]
+                .find((button) => button.textContent === text);
+            return [document.querySelector('#align .ball canvas'), named('Find the ball'), named('Accept')]
+                .map((one) => one.getBoundingClientRect()).map(({ top, bottom, left }) => ({ top, bottom, left }));""")
+        self.browser.keep_picture("align-steps")
+        for box in shown:
+            self.assertGreaterEqual(box["top"], 0)
+            self.assertLessEqual(box["bottom"], 900)
+        picture, find, _ = shown
+        self.assertGreater(find["left"], picture["left"])
+        self.browser.execute_script("scrollTo(0, document.body.scrollHeight)")
+        top = self.browser.execute_script(
+            "return document.querySelector('#align .ball canvas').getBoundingClientRect().top")
+        self.assertGreaterEqual(top, 0)
+        self.expect_no_complaint()
+
+    def test_steps_say_what_is_done_and_what_is_stale(self):
+        self.open()
+        eventually("the rig file's outline does not count", lambda: self.state_of("ball") == "open")
+        self.assertEqual(self.state_of("register"), "")
+        self.press("Find the ball")
+        self.found()
+        self.accept()
+        eventually("the ball is found", lambda: self.state_of("ball") == "done")
+        self.assertEqual(self.state_of("place"), "open")
+        eventually("the check says so", lambda: self.state_of("check") == "done")
+        self.handle("rx").send_keys(Keys.SHIFT + Keys.ARROW_RIGHT * 20)
+        eventually("a wrong outline is proposed", self.proposed)
+        self.accept()
+        eventually("the outline is wrong again", lambda: self.state_of("ball") == "stale: repeat it")
+        self.expect_no_complaint()
+
+    def test_a_correction_of_the_drift_is_proposed(self):
+        self.open()
+        eventually("the zero is learnt", lambda: self.appliance.status()["cameras"][0]["alignment"] == GOOD)
+        self.press("Propose a correction of the drift")
+        self.assertEqual(self.found()["method"], "drift")
+        self.press("Discard")
+        eventually("nothing is proposed", lambda: not self.proposed())
+
+    def test_the_clean_ball_is_learnt(self):
+        self.open()
+        self.press("Learn the clean ball")
+        eventually("it is in the audit", lambda: "learn_clean_ball" in [
+            entry["what"] for entry in json.loads(self.answer("api/v1/audit"))["entries"]])
+        self.assertEqual(self.browser.text("#align [role=alert]"), "")
+        self.expect_no_complaint()
 
 
 class Brightness(AlignCase):
@@ -158,6 +224,7 @@ class Veils(AlignCase):
         self.appliance.unplug("colour")
         self.addCleanup(self.appliance.plug_in, "colour")
         eventually("the reason", lambda: "colour: camera is not connected" in self.reason())
+        self.open_step("check")
         eventually("the view is veiled", lambda: "colour: camera is not connected" in self.browser.text(
             "#scene .veiled .overlay"))
         self.browser.keep_picture("align-lost")
@@ -181,6 +248,7 @@ class Veils(AlignCase):
 
     def test_still_pictures_are_replaced_by_newer_ones(self):
         self.open("thermal")
+        self.open_step("register")
         stamp = ("return document.querySelector('#register canvas').dataset.stamp")
         first = eventually("a comparison", lambda: self.browser.execute_script(stamp))
         eventually("a newer one", lambda: self.browser.execute_script(stamp) > first)
@@ -299,6 +367,7 @@ class Register(AlignCase):
         self.assertGreater(cv2.cvtColor(in_colour, cv2.COLOR_BGR2HSV)[:, :, 1].mean(), 10)
         self.assertEqual(cv2.cvtColor(in_grey, cv2.COLOR_BGR2HSV)[:, :, 1].max(), 0)
         self.open("thermal")
+        self.open_step("register")
         eventually("a comparison", self.number)
         Select(self.browser.find_element(By.NAME, "way")).select_by_value("blend")
         self.assertIn("colour, thermal, of one frame set", self.browser.text("#register figcaption"))
@@ -312,6 +381,7 @@ class Register(AlignCase):
         self.addCleanup(eventually, "it is there again", self.delivers)
         self.addCleanup(self.appliance.plug_in, "colour")
         self.open("thermal")
+        self.open_step("register")
         eventually("the page says so", lambda: (
             "first camera: there is no picture: camera is not connected"
             in self.browser.text("#register [role=alert]")))
@@ -322,6 +392,7 @@ class Register(AlignCase):
 
     def test_both_cameras_are_compared_and_one_is_turned_by_hand(self):
         self.open("thermal")
+        self.open_step("register")
         eventually("a comparison", self.number)
         blend, board = self.compared("blend"), self.compared("checkerboard")
         self.assertGreater(numpy.std(board), 10)
@@ -370,6 +441,7 @@ class Register(AlignCase):
     def test_nothing_keeps_anybody_out(self):
         def show():
             self.open("thermal")
+            self.open_step("register")
             eventually("a comparison", self.number)
 
         self.expect_no_barriers(show)
@@ -405,6 +477,7 @@ class Place(AlignCase):
         self.open("colour")
         self.press("Find the ball")
         self.found()
+        self.open_step("place")
         # The placed rotation must follow from the points alone.
         self.answer("api/v1/command/turn_camera", {"camera": 0, "yaw": 10, "pitch": 5, "roll": -7})
         pixels = self.pixels()
@@ -441,6 +514,7 @@ class Edges(AlignCase):
     def test_an_edge_that_is_dragged_onto_the_machine_s_turns_the_camera(self):
         """Drags at two corners alternately, until the error is too small to be dragged on the
         screen."""
+        self.browser.set_window_size(1800, 1400)
         self.open("colour")
         self.press("Find the ball")
         self.found()
@@ -474,6 +548,7 @@ class Edges(AlignCase):
         self.open("colour")
         self.press("Find the ball")
         self.found()
+        self.open_step("check")
         self.answer("api/v1/command/turn_camera", {"camera": 0, "yaw": 6, "pitch": -4, "roll": 5})
         truth = self.appliance.truth["colour"][1]
         rig = self.appliance.rig
@@ -535,24 +610,11 @@ class Edges(AlignCase):
 
 
 class Judge(AlignCase):
-    def pixels(self, model):
-        """Pixels of the canvas of a model; None before it is drawn."""
-        return self.browser.pixels(f'#models canvas[aria-label="{model}"][data-number]')
-
     def served(self, **query):
         """The view that the interface serves, as a picture."""
         arguments = "&".join(f"{name}={value}" for name, value in query.items())
         jpeg = self.answer(f"api/v1/alignment/view.jpg?{arguments}")
         return cv2.imdecode(numpy.frombuffer(jpeg, numpy.uint8), cv2.IMREAD_COLOR)
-
-    def test_models_stand_side_by_side(self):
-        self.open("colour")
-        self.press("Show both")
-        exact = numpy.array(eventually("the exact one", lambda: self.pixels("Exact model")))
-        paper = numpy.array(eventually("the other", lambda: self.pixels("The paper's model")))
-        self.assertGreater(numpy.mean(numpy.abs(exact - paper)), 5)
-        self.browser.keep_picture("models")
-        self.expect_no_complaint()
 
     def test_the_exact_model_shows_the_room_where_it_is_and_the_paper_s_does_not(self):
         """Uses the edge between ceiling and front wall, in views of a camera that found its
@@ -586,6 +648,7 @@ class Judge(AlignCase):
 
     def test_drift_focus_and_dirt_are_shown_over_time(self):
         self.open("colour")
+        self.open_step("check")
         def watched():
             return next(camera for camera in self.appliance.status()["cameras"]
                         if camera["name"] == "colour")

@@ -164,14 +164,26 @@ export const texts = {
   about: "Versions, and interfaces that accept commands",
   version: "Version",
   commanders: (who) => `The appliance ${who}.`,
+  steps: {
+    ball: "Ball in the picture",
+    register: "Orientation relative to the first camera",
+    place: "Position in the machine",
+    check: "Check",
+    clean: "Clean ball",
+    states: { open: "open", done: "done", stale: "stale: repeat it" },
+  },
+  cleanBall: {
+    help: "Clean the ball, then let the appliance learn what it shows: dirt that comes later is measured against it.",
+    run: "Learn the clean ball",
+  },
   register: {
-    title: "Orientation relative to the first camera",
     run: "Register",
+    isFirst: "This is the first camera, which the others are registered to.",
+    turn: "Turn the camera by hand:",
     help: "Computed from the content of both pictures. Check it in one view from both, one over the other, " +
       "and turn it by hand where they do not agree.",
   },
   place: {
-    title: "Position in the machine",
     help: "Click a point in the picture whose position in the machine is known, type its coordinates and add " +
       "it; six points all around the ball are a good number. Or let the machine hold its tool's light at " +
       "known coordinates: a PLC sends them by the command mark_point, or type them here. The ball's " +
@@ -198,18 +210,9 @@ export const texts = {
     canvas: "A view by the alignment that is shown above",
     edges: "The scene's edges",
   },
-  models: {
-    title: "Comparison of ball models",
-    help: "One view by the exact model and by that of the paper. Straight lines of the machine are " +
-      "straight in a correct view: lay the line along one.",
-    show: "Show both",
-    exact: "Exact model",
-    paper: "The paper's model",
-    angle: "Line turned by",
-    offset: "moved by",
-  },
   watched: {
     title: "The last ten minutes",
+    correct: "Propose a correction of the drift",
     drift_error: "Error of the view directions",
     blur: "Blur",
     contamination: "Dirt on the ball",

@@ -5,10 +5,10 @@ import { directionOf, turnBetween } from "../elements/directions.js";
 import { commandButton, element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { BallEditor } from "./ball_editor.js";
-import { Models } from "./models.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";
 import { SceneView } from "./scene_view.js";
+import { statesOf, Step } from "./steps.js";
 import { Watched } from "./watched.js";
 
 const kPauseMs = 300;  // period of requests to the appliance
@@ -30,8 +30,11 @@ function nudges(give) {
   }));
 }
 
+const buttonsOf = (...buttons) => element("p", { className: "buttons" }, ...buttons);
+
 export class Align {
   #cameras = [];
+  #newest = [];  // cameras of the newest status
   #isRunning = false;
 
   // `descriptions` of a camera's figures.
@@ -55,20 +58,42 @@ export class Align {
     this.facts = element("p", { className: "where" });
     this.register = new Register(give);
     this.scene = new SceneView(give);
-    this.models = new Models();
     this.watched = new Watched(descriptions);
-    root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
-      this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
-      element("p", { className: "buttons" }, ...nudges(give)),
-      this.blocked, this.said, this.refused, this.facts, element("p", {}, texts.align.help),
-      this.register.root, this.place.root, this.scene.root, this.models.root, this.watched.root);
+    this.steps = this.#makeSteps(give);
+    root.append(element("div", { className: "columns" }, this.#makeSeen(),
+      element("div", {}, ...Object.values(this.steps).map((step) => step.root))));
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
     setInterval(() => this.#age(), 250);
   }
 
+  // What each step changes: the picture, and the commands that judge a proposal.
+  #makeSeen() {
+    const { accept, undo, discard, revert } = this.buttons;
+    return element("div", { className: "seen" },
+      element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)), this.editor.root,
+      buttonsOf(accept, undo, discard, revert), this.blocked, this.said, this.refused, this.facts);
+  }
+
+  #makeSteps(give) {
+    const learn = commandButton(texts.cleanBall.run, "learn_clean_ball", give);
+    const correct = commandButton(texts.watched.correct, "correct_alignment", give);
+    const contents = {
+      ball: [buttonsOf(this.buttons.detect), element("p", {}, texts.align.help)],
+      register: [this.register.root, element("p", {}, texts.register.turn), buttonsOf(...nudges(give))],
+      place: [this.place.root],
+      check: [this.scene.root, this.watched.root, buttonsOf(correct)],
+      clean: [element("p", {}, texts.cleanBall.help), buttonsOf(learn)],
+    };
+    const steps = Object.fromEntries(Object.entries(contents).map(([name, content], index) =>
+      [name, new Step(index + 1, name, ...content)]));
+    steps.ball.root.open = true;
+    return steps;
+  }
+
   status({ cameras }, now) {
+    this.#newest = cameras;
     this.watched.status(cameras, this.choice.value, now);
   }
 
@@ -165,15 +190,21 @@ export class Align {
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
     this.place.show(camera, isWorking);
-    this.scene.show(camera);
-    this.models.show(camera);
-    this.register.show(this.#cameras, camera, isWorking);
+    this.scene.show(camera, this.steps.check.isOpen);
+    this.register.show(this.#cameras, camera, isWorking, this.steps.register.isOpen);
+    this.#showSteps(camera);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);
     this.buttons.discard.disabled =
       isWorking || (state === this.states.none && camera.steps === 0);
     this.buttons.revert.disabled = isWorking || !inForce?.method;
     this.#age();
+  }
+
+  #showSteps(camera) {
+    const figures = this.#newest.find(({ name }) => name === camera.name);
+    const states = figures ? statesOf(camera, this.#cameras[0], figures) : {};
+    for (const [name, step] of Object.entries(this.steps)) step.show(states[name]);
   }
 
   #words({ is_watched: isWatched, state, state_text: text, refusal, proposed, in_force: inForce }) {

@@ -164,6 +164,7 @@ export class BallEditor {
     if (this.canvas.width !== camera.width || this.canvas.height !== camera.height) {
       this.canvas.width = camera.width;
       this.canvas.height = camera.height;
+      this.root.style.setProperty("--aspect", camera.width / camera.height);
     }
     place(this.svg, { viewBox: `-0.5 -0.5 ${camera.width} ${camera.height}` });
     this.#refresh();

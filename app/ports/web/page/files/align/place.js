@@ -23,8 +23,7 @@ export class Place {
     this.forget = commandButton(texts.place.forget, "forget_points", give);
     this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, ""],
       texts.place.points);
-    this.root = element("section", { id: "place" }, element("h3", {}, texts.place.title),
-      element("p", {}, texts.place.help), this.pixel, this.points.root,
+    this.root = element("section", { id: "place" }, element("p", {}, texts.place.help), this.pixel, this.points.root,
       element("p", { className: "buttons" }, light, this.run, this.forget));
   }
 

@@ -23,24 +23,27 @@ export class Register {
     this.button = commandButton(texts.register.run, "register_camera", give);
     this.comparison = new Comparison();
     this.view = new ViewFields(() => this.#follow());
-    this.root = element("section", { id: "register" }, element("h3", {}, texts.register.title),
-      element("p", {}, texts.register.help),
+    this.isFirst = element("p", {}, texts.register.isFirst);
+    this.others = element("div", {}, element("p", {}, texts.register.help),
       element("p", { className: "buttons" }, this.button), this.#pictures.refused,
       this.view.root, this.comparison.root);
+    this.root = element("section", { id: "register" }, this.isFirst, this.others);
   }
 
-  show(cameras, camera, isWorking) {
+  // `isOpen`: its pictures are visible.
+  show(cameras, camera, isWorking, isOpen) {
     this.#cameras = cameras;
-    this.root.hidden = camera.index === 0;
+    this.others.hidden = camera.index === 0;
+    this.isFirst.hidden = !this.others.hidden;
     this.button.disabled = isWorking || !camera.is_watched;
-    if (this.root.hidden) return;
+    if (this.others.hidden) return;
     if (this.#camera?.name !== camera.name) {
       this.comparison.forget();
       this.#pictures.forget();
       this.#lookBetween(cameras[0], camera);
     }
     this.#camera = camera;
-    this.#follow();
+    if (isOpen) this.#follow();
   }
 
   #lookBetween({ in_force: first }, { in_force: second }) {

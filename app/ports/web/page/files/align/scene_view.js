@@ -27,12 +27,13 @@ export class SceneView {
       viewBox: `-0.5 -0.5 ${kSide} ${kSide}` }, this.edges);
     const seen = element("div", { className: "picture" }, this.canvas, this.svg);
     this.freshness = new Freshness(seen, kStaleMs);
-    this.root = element("section", { id: "scene" }, element("h3", {}, texts.sceneView.title),
+    this.root = element("section", { id: "scene" }, element("h4", {}, texts.sceneView.title),
       element("p", {}, texts.sceneView.help), this.view.root, this.#picture.refused,
       element("figure", { className: "ball view" }, seen, caption(this.freshness.age)));
   }
 
-  show(camera) {
+  // `isOpen`: its picture is visible.
+  show(camera, isOpen) {
     const { name, is_watched: isWatched } = camera, shown = camera.proposed ?? camera.in_force;
     this.root.hidden = !isWatched || !shown?.edges.length;
     if (this.root.hidden) return;
@@ -44,7 +45,7 @@ export class SceneView {
       this.#picture.forget();
     }
     this.#camera = camera;
-    this.#follow();
+    if (isOpen) this.#follow();
   }
 
   #follow() {

@@ -19,7 +19,7 @@ export class Watched {
     this.parts = Object.fromEntries(Object.keys(kFigures).map((name) => [name, {
       now: element("p"), chart: new Chart(texts.watched[name]) }]));
     this.outline = element("p");
-    this.root = element("section", { id: "watched" }, element("h3", {}, texts.watched.title),
+    this.root = element("section", { id: "watched" }, element("h4", {}, texts.watched.title),
       ...Object.values(this.parts).flatMap(({ now, chart }) => [now, chart.root]), this.outline);
   }
 
