@@ -473,6 +473,62 @@ class Place(AlignCase):
         rig = self.appliance.rig
         return [seen_at(rig["camera"][0], rig["ball"], point) for point in self.POINTS]
 
+    def crosses(self):
+        """Number of points drawn in the picture."""
+        return len(self.browser.find_elements(By.CSS_SELECTOR, "#align .marks path"))
+
+    def position(self):
+        """Top of the picture on the screen."""
+        return self.browser.execute_script(
+            "return document.querySelector('#align .ball canvas').getBoundingClientRect().top")
+
+    def test_a_clicked_point_is_drawn_at_once_and_the_picture_stays(self):
+        for width in (1440, 500):
+            with self.subTest(width=width):
+                self.browser.set_window_size(width, 900)
+                self.browser.get("about:blank")
+                self.open("colour")
+                self.pointer_at(300, 300).click().perform()
+                self.assertEqual(self.crosses(), 0, "no point is being marked")
+                self.open_step("place")
+                self.pointer_at(300, 300).perform()
+                before = self.position()
+                ActionChains(self.browser).click().perform()
+                self.assertEqual(self.crosses(), 1)
+                self.assertAlmostEqual(self.position(), before, delta=1)
+                clicked = float(self.browser.find_element(By.NAME, "u").get_property("value"))
+                self.assertAlmostEqual(clicked, 300, delta=3)
+        self.expect_no_complaint()
+
+    def test_a_loupe_shows_the_picture_under_the_pointer(self):
+        self.open("colour")
+        self.open_step("place")
+        self.pointer_at(300, 400).perform()
+        loupe = self.browser.find_element(By.CSS_SELECTOR, "#align .loupe")
+        self.assertTrue(loupe.is_displayed())
+        self.browser.keep_picture("loupe")
+        zoomed, below, scale = self.browser.execute_script("""
+            const [loupe, picture] = ['.loupe', 'canvas'].map((one) =>
+                document.querySelector(`#align .ball ${one}`));
+            const scale = picture.width / picture.getBoundingClientRect().width;
+            const grey = (canvas, x, y, side) => {
+                const { data } = canvas.getContext('2d').getImageData(x, y, side, side);
+                return Array.from({ length: side * side }, (_, k) => data[4 * k + 1]);
+            };
+            const side = Math.round(160 / 4 * scale);
+            const [x, y] = [[loupe.style.left, picture.width], [loupe.style.top, picture.height]].map(
+                ([share, length]) => Math.round(parseFloat(share) / 100 * length - side / 2));
+            return [grey(loupe, 0, 0, 160), grey(picture, x, y, side), scale];""")
+        side = round(40 * scale)
+        zoomed, below = numpy.reshape(zoomed, (160, 160)), numpy.reshape(below, (side, side))
+        enlarged = cv2.resize(below.astype(numpy.uint8), (160, 160), interpolation=cv2.INTER_NEAREST)
+        correlation = numpy.corrcoef(zoomed.ravel(), enlarged.ravel())[0, 1]
+        self.assertGreater(correlation, 0.8)
+        ActionChains(self.browser).move_to_element(
+            self.browser.find_element(By.CSS_SELECTOR, "#step-place summary")).perform()
+        self.assertFalse(loupe.is_displayed())
+        self.expect_no_complaint()
+
     def test_a_camera_is_placed_by_points_that_are_clicked(self):
         self.open("colour")
         self.press("Find the ball")

@@ -184,10 +184,10 @@ export const texts = {
       "and turn it by hand where they do not agree.",
   },
   place: {
-    help: "Click a point in the picture whose position in the machine is known, type its coordinates and add " +
-      "it; six points all around the ball are a good number. Or let the machine hold its tool's light at " +
-      "known coordinates: a PLC sends them by the command mark_point, or type them here. The ball's " +
-      "outline must be right before.",
+    help: "While this step is open, click a point in the picture whose position in the machine is known, type " +
+      "its coordinates and add it; six points all around the ball are a good number. Or let the machine hold " +
+      "its tool's light at known coordinates: a PLC sends them by the command mark_point, or type them here. " +
+      "The ball's outline must be right before.",
     u: "In the picture: right, px",
     v: "down, px",
     x: "In the machine: X, mm",

@@ -46,7 +46,7 @@ export class Align {
     this.said = element("p", { role: "status" });
     this.refused = element("p", { role: "alert", className: "wrong" });
     const give = (name, values) => this.#give(name, values);
-    this.place = new Place(give);
+    this.place = new Place(give, (pixel) => this.editor.mark(pixel));
     this.editor = new BallEditor(give, (pixel) => this.place.pick(pixel),
       (from, to) => this.#pull(from, to));
     this.buttons = Object.fromEntries([
@@ -89,6 +89,7 @@ export class Align {
     const steps = Object.fromEntries(Object.entries(contents).map(([name, content], index) =>
       [name, new Step(index + 1, name, ...content)]));
     steps.ball.root.open = true;
+    steps.place.root.addEventListener("toggle", () => { this.editor.isMarking = steps.place.isOpen; });
     return steps;
   }
 
@@ -179,6 +180,7 @@ export class Align {
   #choose() {
     setText(this.refused, "");
     this.editor.forget();
+    this.place.forgetPixel();
     this.editor.freshness.forget();
     if (this.#camera) this.#show(this.#camera);
   }

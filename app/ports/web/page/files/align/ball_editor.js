@@ -6,6 +6,7 @@ import { Freshness } from "../elements/freshness.js";
 import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 import { caption, kStaleMs } from "./camera_view.js";
+import { Loupe } from "./loupe.js";
 
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
@@ -48,6 +49,8 @@ export class BallEditor {
   #isHeld = false;   // being changed: states of the appliance wait
   #settle = 0;
   #handles = {};
+  #marked = null;    // pixel of a point that is being marked
+  #isMarking = false;
 
   // `onChange(command, values)` applies a change on the appliance; a promise. `onPick([u, v])`: a click
   // beside the handles. `onPull(from, to)`: an edge was dragged from one pixel to another; a promise.
@@ -62,13 +65,18 @@ export class BallEditor {
     this.ellipse = drawn("ellipse", { class: "limb" });
     this.svg.append(this.before, this.ellipse, this.marks, this.edges);
     for (const name of ["centre", "rx", "ry"]) this.#addHandle(name);
-    this.onPick = onPick;
+    this.loupe = new Loupe(this.canvas);
+    this.onPick = (pixel) => this.#isMarking && onPick(pixel);
     this.svg.addEventListener("click", (event) => {
       const isOther = event.target.hasAttribute("data-handle") || event.target.tagName === "polyline";
-      if (!isOther) onPick(this.pixelAt(event));
+      if (!isOther) this.onPick(this.pixelAt(event));
     });
+    this.svg.addEventListener("pointermove", (event) => {
+      if (this.#isMarking) this.loupe.show(this.pixelAt(event));
+    });
+    this.svg.addEventListener("pointerleave", () => this.loupe.hide());
     this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
-    const seen = element("div", { className: "picture" }, this.canvas, this.svg);
+    const seen = element("div", { className: "picture" }, this.canvas, this.svg, this.loupe.root);
     this.freshness = new Freshness(seen, kStaleMs);
     this.root = element("figure", { className: "ball" }, seen,
       caption(this.freshness.age));
@@ -175,6 +183,20 @@ export class BallEditor {
     this.freshness.drew(0, asked);
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
+    this.loupe.refresh();
+  }
+
+  // Clicks mark points, and there is a loupe.
+  set isMarking(is) {
+    this.#isMarking = is;
+    this.svg.classList.toggle("marking", is);
+    if (!is) this.loupe.hide();
+  }
+
+  // Draws the point that is being marked; null: none.
+  mark(pixel) {
+    this.#marked = pixel;
+    if (this.camera) this.#markPoints(this.camera);
   }
 
   // Crosses at marked points, with a line to their projection by the placement.
@@ -184,8 +206,8 @@ export class BallEditor {
       d: `M${u - size},${v}H${u + size}M${u},${v - size}V${v + size}` });
     const off = points.filter(({ residual }) => residual).map(({ pixel, residual }) =>
       drawn("path", { d: `M${pixel}L${pixel[0] - residual[0]},${pixel[1] - residual[1]}` }));
-    const marked = points.map(({ pixel }) => cross(pixel));
-    this.marks.replaceChildren(...off, ...marked, ...(picked ? [cross(picked)] : []));
+    const pixels = [...points.map(({ pixel }) => pixel), this.#marked ?? picked].filter(Boolean);
+    this.marks.replaceChildren(...off, ...pixels.map(cross));
   }
 
   // Size of a screen pixel.

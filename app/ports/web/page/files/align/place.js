@@ -9,14 +9,20 @@ function number(label, name) {
   return field(label, { type: "number", name, step: "any" });
 }
 
+function isOnScreen(shown) {
+  const { top, bottom } = shown.getBoundingClientRect();
+  return top >= 0 && bottom <= document.documentElement.clientHeight;
+}
+
 export class Place {
-  // `give(command, values)`: see Align.
-  constructor(give) {
-    this.give = give;
+  // `give(command, values)`: see Align. `onMark(pixel)`: the pixel in the form has changed; null: there is none.
+  constructor(give, onMark) {
+    Object.assign(this, { give, onMark });
     this.pixel = element("form", { id: "point" }, number(texts.place.u, "u"), number(texts.place.v, "v"),
       ...kCoordinates.map((name) => number(texts.place[name], name)),
       element("button", {}, texts.place.add));
     this.pixel.addEventListener("submit", (event) => this.#add(event));
+    this.pixel.addEventListener("input", () => this.#mark());
     const light = element("button", { type: "button" }, texts.place.light);
     light.addEventListener("click", () => this.#markLight());
     this.run = commandButton(texts.place.run, "place_camera", give);
@@ -36,7 +42,17 @@ export class Place {
     event.preventDefault();
     const { u, v } = this.pixel.elements;
     const why = await this.give("pick_pixel", { u: Number(u.value), v: Number(v.value) });
-    if (!why && !(await this.give("mark_point", this.#coordinates()))) this.pixel.reset();
+    if (!why && !(await this.give("mark_point", this.#coordinates()))) this.forgetPixel();
+  }
+
+  #mark() {
+    const { u, v } = this.pixel.elements;
+    this.onMark(u.value && v.value ? [Number(u.value), Number(v.value)] : null);
+  }
+
+  forgetPixel() {
+    this.pixel.reset();
+    this.#mark();
   }
 
   #markLight() {
@@ -46,11 +62,12 @@ export class Place {
     this.give("mark_point", this.#coordinates());
   }
 
-  // Handles a click in the picture.
+  // Handles a click in the picture, which stays where it is: a phone would scroll to a form that is below.
   pick([u, v]) {
     this.pixel.elements.u.value = u.toFixed(1);
     this.pixel.elements.v.value = v.toFixed(1);
-    this.pixel.elements.x.focus();
+    this.#mark();
+    if (isOnScreen(this.pixel.elements.x)) this.pixel.elements.x.focus({ preventScroll: true });
   }
 
   show({ points, is_watched: isWatched }, isWorking) {
