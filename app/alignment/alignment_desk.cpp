@@ -106,6 +106,15 @@ CommandResult AlignmentDesk::place(std::size_t camera) {
   });
 }
 
+CommandResult AlignmentDesk::forget_point(std::size_t camera, const optics::Vec3& point) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  const std::lock_guard lock(mutex_);
+  if (busy_) return CommandResult::Busy;
+  if (!finder_.forget_point(camera, point)) return CommandResult::NotPossible;
+  point_counts_[camera] = finder_.points(camera).size();
+  return CommandResult::Done;
+}
+
 CommandResult AlignmentDesk::forget_points(std::size_t camera) {
   if (!has(camera)) return CommandResult::ArgumentOutOfRange;
   const std::lock_guard lock(mutex_);

@@ -61,6 +61,8 @@ class AlignmentDesk : public AlignmentSource {
   /// Says where the picture shows the point that is marked next. ArgumentOutOfRange: outside of the
   /// ball, too.
   CommandResult pick(std::size_t camera, const optics::Vec2& pixel);
+  /// Forgets the point with these coordinates. NotPossible: there is none.
+  CommandResult forget_point(std::size_t camera, const optics::Vec3& point);
   /// Forgets all points. NotPossible: there are none.
   CommandResult forget_points(std::size_t camera);
   /// Places it by its points and the site's tags. NotPossible: it is not watched, or there are

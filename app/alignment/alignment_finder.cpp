@@ -97,6 +97,15 @@ Result<> AlignmentFinder::mark(const optics::Rig& rig, std::size_t camera,
   return {};
 }
 
+bool AlignmentFinder::forget_point(std::size_t camera, const optics::Vec3& point) {
+  if (!points_[camera].remove(point)) return false;
+  const std::lock_guard lock(mutex_);
+  std::erase_if(shown_[camera], [&](const PlacedPoint& shown) {
+    return shown.point.x == point.x && shown.point.y == point.y && shown.point.z == point.z;
+  });
+  return true;
+}
+
 void AlignmentFinder::forget_points(std::size_t camera) {
   points_[camera].clear();
   const std::lock_guard lock(mutex_);

@@ -32,6 +32,8 @@ class AlignmentFinder {
   /// Adds a point where the ball shows the tool's light now, or at `pixel`.
   Result<> mark(const optics::Rig& rig, std::size_t camera, const optics::Vec3& point,
                 const std::optional<optics::Vec2>& pixel);
+  /// False: no point has these coordinates.
+  bool forget_point(std::size_t camera, const optics::Vec3& point);
   void forget_points(std::size_t camera);
   /// Placement by the camera's points and the site's tags.
   Result<AlignmentProposal> place(const optics::Rig& rig, std::size_t camera);

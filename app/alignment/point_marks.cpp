@@ -43,6 +43,13 @@ std::vector<PointMarks::SeenPoint> PointMarks::others(const optics::Vec3& point)
   return points;
 }
 
+bool PointMarks::remove(const optics::Vec3& point) {
+  std::vector<SeenPoint> rest = others(point);
+  const bool is_there = rest.size() < points_.size();
+  points_ = std::move(rest);
+  return is_there;
+}
+
 Result<> PointMarks::add(const optics::Vec3& point, const optics::Vec2& pixel) {
   std::vector<SeenPoint> points = others(point);
   if (points.size() >= kMost) return too_many();

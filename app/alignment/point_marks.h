@@ -29,6 +29,8 @@ class PointMarks {
   /// The same for one that the picture shows at `pixel`. Error: kMost points.
   Result<> add(const optics::Vec3& point, const optics::Vec2& pixel);
 
+  /// False: no point has these coordinates.
+  bool remove(const optics::Vec3& point);
   void clear() { points_.clear(); }
   std::size_t size() const { return points_.size(); }
 

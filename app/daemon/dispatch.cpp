@@ -99,6 +99,9 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
     case CommandCode::SetColourRange:
       return pipeline.set_colour_range(command.integer(0), command.integer(1),
                                        {arguments[2], arguments[3]});
+    case CommandCode::ForgetPoint:
+      return receivers.alignment.forget_point(command.integer(0),
+                                              {arguments[1], arguments[2], arguments[3]});
   }
   return CommandResult::UnknownCommand;
 }

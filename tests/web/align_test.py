@@ -473,6 +473,15 @@ class Place(AlignCase):
         rig = self.appliance.rig
         return [seen_at(rig["camera"][0], rig["ball"], point) for point in self.POINTS]
 
+    def add_a_wrong_point_and_remove_it(self):
+        points = self.camera()["points"]
+        self.answer("api/v1/command/pick_pixel", {"camera": 0, "u": 400, "v": 400})
+        self.answer("api/v1/command/mark_point", {"camera": 0, "x": 1.5, "y": 2, "z": 3})
+        wrong = eventually("it is on the page", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "#place [aria-label='Remove the point at 1.50, 2.00, 3.00']:enabled"))
+        wrong[0].click()
+        eventually("only it is removed", lambda: self.camera()["points"] == points)
+
     def crosses(self):
         """Number of points drawn in the picture."""
         return len(self.browser.find_elements(By.CSS_SELECTOR, "#align .marks path"))
@@ -547,6 +556,7 @@ class Place(AlignCase):
             self.press("Add the point")
             eventually("it is marked", lambda count=count: len(self.camera()["points"]) == count)
         self.assertEqual([tuple(point["point"]) for point in self.camera()["points"]], self.POINTS)
+        self.add_a_wrong_point_and_remove_it()
         self.press("Place")
         eventually("residuals", lambda: all(point["residual"] for point in self.camera()["points"]))
         self.found()

@@ -140,7 +140,12 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
                  "value of the first colour: degC of a radiometric camera, else percent of full "  \
                  "scale; below last",                                                              \
                  true},                                                                            \
-    ArgumentInfo{"last", "", 0.1, kLeastValue + 1, kMostValue, "value of the last colour"})
+    ArgumentInfo{"last", "", 0.1, kLeastValue + 1, kMostValue, "value of the last colour"})        \
+  X(ForgetPoint, 30, "forget_point", Integrator,                                                   \
+    "Discards the point marked for a camera at these coordinates, machine frame", kCameraArgument, \
+    ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},               \
+    ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                    \
+    ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

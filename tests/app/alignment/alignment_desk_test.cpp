@@ -116,6 +116,24 @@ TEST_F(AlignmentDeskTest, RefusesAnUnsureBallInTheWordingOfEveryCommand) {
   EXPECT_TRUE(accepted.entries.empty());
 }
 
+TEST_F(AlignmentDeskTest, ForgetsOnePointByItsCoordinates) {
+  ASSERT_TRUE(desk->report(0).in_force);
+  const optics::Vec2 centre = desk->report(0).in_force->outline.centre;
+  for (const double x : {10.5, 20.25, 30.0}) {
+    ASSERT_EQ(desk->pick(0, {centre.u + x, centre.v}), CommandResult::Done);
+    ASSERT_EQ(desk->mark(0, {x, 2, 3}), CommandResult::Done);
+    ASSERT_EQ(report_after_work().refusal, "");
+  }
+  EXPECT_EQ(desk->forget_point(0, {20.25, 2, 4}), CommandResult::NotPossible);
+  ASSERT_EQ(desk->forget_point(0, {20.25, 2, 3}), CommandResult::Done);
+  const std::vector<PlacedPoint> points = desk->report(0).points;
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0].point.x, 10.5);
+  EXPECT_EQ(points[1].point.x, 30);
+  EXPECT_EQ(desk->forget_point(0, {20.25, 2, 3}), CommandResult::NotPossible);
+  EXPECT_EQ(desk->forget_point(1, {10.5, 2, 3}), CommandResult::ArgumentOutOfRange);
+}
+
 TEST_F(AlignmentDeskTest, PutsAStatedAlignmentInForceByTheRecordAndARestart) {
   ASSERT_TRUE(desk->report(0).in_force);
   const optics::Vec2 centre = desk->report(0).in_force->outline.centre;

@@ -198,6 +198,7 @@ export const texts = {
     run: "Place",
     forget: "Discard all points",
     points: "Known points",
+    remove: (coordinates) => `Remove the point at ${coordinates}`,
     point: "X, Y, Z, mm",
     pixel: "Marked at, px",
     residual: "Marked minus projected, px",

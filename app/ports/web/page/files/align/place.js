@@ -27,7 +27,7 @@ export class Place {
     light.addEventListener("click", () => this.#markLight());
     this.run = commandButton(texts.place.run, "place_camera", give);
     this.forget = commandButton(texts.place.forget, "forget_points", give);
-    this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, ""],
+    this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, "", ""],
       texts.place.points);
     this.root = element("section", { id: "place" }, element("p", {}, texts.place.help), this.pixel, this.points.root,
       element("p", { className: "buttons" }, light, this.run, this.forget));
@@ -74,16 +74,27 @@ export class Place {
     this.run.disabled = isWorking || !isWatched;
     this.forget.disabled = isWorking || points.length === 0;
     while (this.points.body.rows.length > points.length) this.points.body.lastChild.remove();
-    points.forEach((point, index) => this.#showRow(point, index));
+    points.forEach((point, index) => this.#showRow(point, index, isWorking));
   }
 
-  #showRow({ point, pixel, residual, is_outlier: isOutlier }, index) {
-    const row = this.points.body.rows[index] ?? this.points.body.appendChild(
-      element("tr", {}, ...[0, 1, 2, 3].map(() => element("td"))));
+  // The row has its point, which its button discards.
+  #addRow() {
+    const remove = element("button", { type: "button" }, texts.remove);
+    const row = element("tr", {}, ...[0, 1, 2, 3].map(() => element("td")), element("td", {}, remove));
+    remove.addEventListener("click", () => this.give("forget_point", row.point));
+    return this.points.body.appendChild(row);
+  }
+
+  #showRow({ point, pixel, residual, is_outlier: isOutlier }, index, isWorking) {
+    const row = this.points.body.rows[index] ?? this.#addRow();
+    row.point = Object.fromEntries(kCoordinates.map((name, k) => [name, point[k]]));
     const rounded = (numbers, digits) => numbers.map((one) => one.toFixed(digits)).join(", ");
     const cells = [rounded(point, 2), rounded(pixel, 1), residual ? rounded(residual, 2) : "–",
                    isOutlier ? texts.place.outlier : ""];
     cells.forEach((text, column) => setText(row.cells[column], text));
     row.classList.toggle("wrong", isOutlier);
+    const remove = row.querySelector("button");
+    remove.disabled = isWorking;
+    remove.setAttribute("aria-label", texts.place.remove(cells[0]));
   }
 }
