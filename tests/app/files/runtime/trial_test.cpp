@@ -46,8 +46,8 @@ class TrialFile : public testing::Test {
 
 TEST_F(TrialFile, IsTakenOnceAndRunsUntilItsEnd) {
   EXPECT_EQ(take_trial(folder_.path()).value(), std::nullopt);
-  ASSERT_TRUE(request_trial(folder_.path(),
-                            {"/etc/site.toml", {{"/etc/rig.toml", "x"}}, 30, {}, "kim"}));
+  ASSERT_TRUE(
+      request_trial(folder_.path(), {"/etc/site.toml", {{"/etc/rig.toml", "x"}}, 30, {}, "kim"}));
   EXPECT_TRUE(is_trial_requested(folder_.path()));
   const auto taken = take_trial(folder_.path());
   ASSERT_TRUE(taken && *taken);
