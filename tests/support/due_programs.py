@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """due_programs.py FOLDER BASE: prints the test programs and fuzz targets of the configured build in FOLDER,
-a line each: `due NAME` when a change since the commit BASE affects it, otherwise `same NAME`. Without a known
-BASE all are due.
+a line each: `own NAME` when something changed since the commit BASE in the folder of its tests or in the one
+that they mirror, `due NAME` when another change affects it, otherwise `same NAME`. Without a known BASE all are
+due.
 
 A program is affected by its sources, by what they include, by what it links and by the programs that it
 starts, as Ninja knows them. Another file, such as a list of registers or the page, affects all sources of
@@ -13,6 +14,8 @@ import pathlib
 import re
 import subprocess
 import sys
+
+from run_changed import mirrored
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCE = re.compile(r"\.(cpp|h|c)$")
@@ -102,21 +105,28 @@ def programs_of(build):
 
 
 def fates(build, base):
-    """Whether it is due, by program's name."""
+    """`own`, `due` or `same` by program's name."""
     files = output_of("git", "ls-files").splitlines()
     known = base and not subprocess.run(["git", "merge-base", "--is-ancestor", base, "HEAD"], cwd=ROOT,
                                         capture_output=True).returncode
-    sources = affected(output_of("git", "diff", "--name-only", base).splitlines(), files) if known else None
-    return {name: sources is None or not inputs_of(name, build).isdisjoint(sources)
-            for name in programs_of(build)}
+    programs = list(programs_of(build))
+    if not known:
+        return dict.fromkeys(programs, "due")
+    changed = output_of("git", "diff", "--name-only", base).splitlines()
+    sources = affected(changed, files)
+    if sources is None:
+        return dict.fromkeys(programs, "due")
+    own = mirrored([name for name in changed if SOURCE.search(name)], programs)
+    return {name: "same" if inputs_of(name, build).isdisjoint(sources) else "own" if name in own else "due"
+            for name in programs}
 
 
 def main():
     if len(sys.argv) != 3:
         print(__doc__)
         return 0 if sys.argv[1:] == ["--help"] else 2
-    for name, is_due in fates(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]).items():
-        print("due" if is_due else "same", name)
+    for name, fate in fates(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]).items():
+        print(fate, name)
     return 0
 
 

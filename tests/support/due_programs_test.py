@@ -8,6 +8,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 import due_programs  # noqa: E402
+import run_changed  # noqa: E402
 
 # Two libraries; `upper` includes a header of `lower`. The daemon embeds a page and is started by its tests.
 FILES = {
@@ -50,9 +51,9 @@ class DuePrograms(unittest.TestCase):
         self.write("build/CTestTestfile.cmake", TESTS)
         self.git("init", "--quiet")
         self.commit()
-        root = due_programs.ROOT
-        self.addCleanup(setattr, due_programs, "ROOT", root)
-        due_programs.ROOT = self.top
+        for module in (due_programs, run_changed):
+            self.addCleanup(setattr, module, "ROOT", module.ROOT)
+            module.ROOT = self.top
 
     def write(self, name, text):
         path = self.top / name
@@ -77,10 +78,19 @@ class DuePrograms(unittest.TestCase):
     def due(self, base):
         fates = due_programs.fates(self.build, base)
         self.assertEqual(set(fates), ALL)
-        return {name for name, is_due in fates.items() if is_due}
+        return {name for name, fate in fates.items() if fate != "same"}
 
     def test_a_source_affects_what_is_linked_with_it(self):
         self.assertEqual(self.due_after("lower/lower.cpp"), {"lower_tests", "upper_tests", "fuzz_lower"})
+
+    def test_a_program_of_the_changed_folder_is_told_from_others(self):
+        self.write("tests/CMakeLists.txt", "orbwatch_tests(upper_tests SOURCES upper/upper_test.cpp LIBRARIES a)")
+        self.commit()
+        with (self.top / "upper/upper.cpp").open("a") as file:
+            file.write("\n")
+        self.commit()
+        self.assertEqual(due_programs.fates(self.build, "HEAD~1"), {
+            "upper_tests": "own", "daemon_tests": "due", "lower_tests": "same", "fuzz_lower": "same"})
 
     def test_a_program_affects_the_tests_that_start_it(self):
         self.assertEqual(self.due_after("daemon.cpp"), {"daemon_tests"})
