@@ -192,8 +192,9 @@ export class Align {
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
     this.place.show(camera, isWorking);
-    this.scene.show(camera, this.steps.check.isOpen);
-    this.register.show(this.#cameras, camera, isWorking, this.steps.register.isOpen);
+    // Views are made by the same thread that records the pictures for a computation.
+    this.scene.show(camera, this.steps.check.isOpen && !isWorking);
+    this.register.show(this.#cameras, camera, isWorking, this.steps.register.isOpen && !isWorking);
     this.#showSteps(camera);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);

@@ -30,8 +30,8 @@ export class Register {
     this.root = element("section", { id: "register" }, this.isFirst, this.others);
   }
 
-  // `isOpen`: its pictures are visible.
-  show(cameras, camera, isWorking, isOpen) {
+  // `isLive`: newer pictures are to be compared.
+  show(cameras, camera, isWorking, isLive) {
     this.#cameras = cameras;
     this.others.hidden = camera.index === 0;
     this.isFirst.hidden = !this.others.hidden;
@@ -43,7 +43,7 @@ export class Register {
       this.#lookBetween(cameras[0], camera);
     }
     this.#camera = camera;
-    if (isOpen) this.#follow();
+    if (isLive) this.#follow();
   }
 
   #lookBetween({ in_force: first }, { in_force: second }) {

@@ -32,8 +32,8 @@ export class SceneView {
       element("figure", { className: "ball view" }, seen, caption(this.freshness.age)));
   }
 
-  // `isOpen`: its picture is visible.
-  show(camera, isOpen) {
+  // `isLive`: newer pictures are to be shown.
+  show(camera, isLive) {
     const { name, is_watched: isWatched } = camera, shown = camera.proposed ?? camera.in_force;
     this.root.hidden = !isWatched || !shown?.edges.length;
     if (this.root.hidden) return;
@@ -45,7 +45,7 @@ export class SceneView {
       this.#picture.forget();
     }
     this.#camera = camera;
-    if (isOpen) this.#follow();
+    if (isLive) this.#follow();
   }
 
   #follow() {
