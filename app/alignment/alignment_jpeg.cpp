@@ -56,7 +56,7 @@ std::pair<double, double> range_of(Counts seen) {
 Result<std::string> stretched(const Counts& counts, Counts seen, int width, int height) {
   const auto [low, high] = range_of(std::move(seen));
   std::vector<std::uint8_t> grey(counts.size());
-  std::ranges::transform(counts, grey.begin(), [low, high](std::uint16_t count) {
+  std::ranges::transform(counts, grey.begin(), [low = low, high = high](std::uint16_t count) {
     const double share = (count - low) / (high - low);
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
   });
