@@ -255,13 +255,15 @@ TEST_F(Place, RefusesAPointBesideTheBall) {
   std::vector<std::string> words{"place", "--rig", path("rig.toml")};
   const auto marks = marked(0);
   words.insert(words.end(), marks.begin(), marks.end());
-  words.insert(words.end(), {"--point", at_limb(0.3)});
+  words.insert(words.end(), {"--point", at_limb(5)});
   EXPECT_NE(run(words), 0);
   EXPECT_NE(said.find("(1, 2, 3 mm), marked at "), std::string::npos) << said;
-  EXPECT_NE(said.find("lies outside of the ball's outline"), std::string::npos) << said;
-  words.back() = at_limb(-0.3);
-  run(words);
-  EXPECT_EQ(said.find("outside"), std::string::npos) << said;
+  EXPECT_NE(said.find("px outside of the ball's outline"), std::string::npos) << said;
+  for (const double beyond : {-0.3, 0.3}) {  // 0.3 px are an error of the mark or the outline
+    words.back() = at_limb(beyond);
+    run(words);
+    EXPECT_EQ(said.find("outside"), std::string::npos) << said;
+  }
 }
 
 TEST_F(Place, RefusesMistakesWithTheReason) {
