@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """due_programs.py FOLDER BASE: prints the test programs and fuzz targets of the configured build in FOLDER,
 a line each: `own NAME` when something changed since the commit BASE in the folder of its tests or in the one
-that they mirror, `due NAME` when another change affects it, otherwise `same NAME`. Without a known BASE all are
-due.
+that they mirror, `due NAME` when another change affects it, otherwise `same NAME`. Without a known BASE, or when a
+file of the whole build changed, all are `own`.
 
 A program is affected by its sources, by what they include, by what it links and by the programs that it
 starts, as Ninja knows them. Another file, such as a list of registers or the page, affects all sources of
@@ -110,12 +110,10 @@ def fates(build, base):
     known = base and not subprocess.run(["git", "merge-base", "--is-ancestor", base, "HEAD"], cwd=ROOT,
                                         capture_output=True).returncode
     programs = list(programs_of(build))
-    if not known:
-        return dict.fromkeys(programs, "due")
-    changed = output_of("git", "diff", "--name-only", base).splitlines()
-    sources = affected(changed, files)
+    changed = output_of("git", "diff", "--name-only", base).splitlines() if known else []
+    sources = affected(changed, files) if known else None
     if sources is None:
-        return dict.fromkeys(programs, "due")
+        return dict.fromkeys(programs, "own")
     own = mirrored([name for name in changed if SOURCE.search(name)], programs)
     return {name: "same" if inputs_of(name, build).isdisjoint(sources) else "own" if name in own else "due"
             for name in programs}

@@ -75,6 +75,11 @@ class DuePrograms(unittest.TestCase):
         self.commit()
         return self.due("HEAD~1")
 
+    def test_what_all_are_built_with_spares_no_sanitizer(self):
+        self.due_after("CMakeLists.txt")
+        for base in ("HEAD~1", ""):
+            self.assertEqual(set(due_programs.fates(self.build, base).values()), {"own"})
+
     def due(self, base):
         fates = due_programs.fates(self.build, base)
         self.assertEqual(set(fates), ALL)

@@ -12,6 +12,8 @@ gently=()
 build() {
   stage "$1-configure" cmake --preset "$1" && compile "$@"
 }
+
+# compile PRESET [TARGET...]: compiles a configured preset, all without targets.
 compile() {
   local preset=$1 begin=$logs/$1-build.begin
   shift
