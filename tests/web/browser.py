@@ -13,11 +13,19 @@ from selenium.webdriver.chrome.service import Service
 
 PICTURES = pathlib.Path(__file__).resolve().parents[2] / "build/web"
 AXE = PICTURES / "node_modules/axe-core/axe.min.js"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "app/ports/web/page/files"
 # Options for root in a container, without network access of the browser itself.
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
              "--disable-quic", "--no-first-run", "--disable-background-networking",
              "--disable-component-update", "--disable-sync", "--window-size=1280,900",
              "--enable-unsafe-swiftshader"]  # WebGL by software, without a complaint
+
+
+def module_address(name):
+    """Address of a module of the page that imports no other; for pages with ignore_policy(). The appliance serves
+    modules only in its bundle."""
+    source = base64.b64encode((PAGE / name).read_bytes()).decode()
+    return f"data:text/javascript;base64,{source}"
 
 
 class Browser(webdriver.Chrome):
@@ -39,6 +47,10 @@ class Browser(webdriver.Chrome):
         its picture has gone, which the page expects and the browser reports."""
         return [entry for entry in self.get_log("browser") if entry["level"] != "INFO"
                 and not ("/live/pixel?" in entry["message"] and "410 (Gone)" in entry["message"])]
+
+    def ignore_policy(self):
+        """Opens pages without their Content-Security-Policy from now on."""
+        self.execute_cdp_cmd("Page.setBypassCSP", {"enabled": True})
 
     def text(self, selector):
         return self.execute_script(
@@ -84,7 +96,7 @@ class Browser(webdriver.Chrome):
         when axe-core is missing, except for acceptance."""
         if not AXE.exists() and not os.environ.get("ORBWATCH_ACCEPTANCE"):
             raise unittest.SkipTest("skipped, missing: axe-core, which npm installs")
-        self.execute_cdp_cmd("Page.setBypassCSP", {"enabled": True})
+        self.ignore_policy()
 
     def pixels(self, selector):
         """The pixels of a canvas, as one number each; None if there is no such canvas."""

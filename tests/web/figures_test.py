@@ -10,6 +10,7 @@ import unittest
 from selenium.webdriver.common.by import By
 
 from appliance import eventually
+from browser import module_address
 from page_case import PageCase
 
 # Digits and unit of a value in a table: three or four significant digits, or a whole number.
@@ -19,11 +20,12 @@ AMOUNT = re.compile(r"^(–|-?\d+|-?\d{2,3}\.\d|-?[1-9]\.\d{2}|-?0\.[1-9]\d{2}|-
 class Figures(PageCase):
     def text_of(self, value, unit):
         return self.browser.execute_async_script("""
-            const [value, unit, done] = arguments;
-            import('/elements/amounts.js').then(({ amountText }) => done(amountText(value, unit)));""",
-            value, unit)
+            const [module, value, unit, done] = arguments;
+            import(module).then(({ amountText }) => done(amountText(value, unit)), (wrong) => done(String(wrong)));""",
+            module_address("elements/amounts.js"), value, unit)
 
     def test_amounts_have_sensible_digits_and_symbols(self):
+        self.browser.ignore_policy()
         self.browser.get(self.appliance.address)
         for value, unit, text in (
                 (0.0003963, "deg", "0.0004°"), (8.4, "mm", "8.40 mm"), (26, "mm", "26 mm"),

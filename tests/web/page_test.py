@@ -4,7 +4,6 @@
 Folders: app/ports/web/page/files app/ports/web/status app/ports/web/history
 """
 
-import base64
 import json
 import re
 import unittest
@@ -12,7 +11,8 @@ import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import PATIENCE_S, ROOT, Appliance, eventually
+from appliance import PATIENCE_S, Appliance, eventually
+from browser import module_address
 from page_case import PageCase
 
 VIEWS = {"panorama", "door", "heat", "process"}
@@ -143,14 +143,12 @@ class Page(PageCase):
         self.expect_no_complaint()
 
     def test_a_picture_that_cannot_be_decoded_stops_nothing(self):
-        # The module alone, which is served only as a part of the bundle.
-        module = (ROOT / "app/ports/web/page/files/appliance/newest_picture.js").read_bytes()
-        self.browser.execute_cdp_cmd("Page.setBypassCSP", {"enabled": True})
+        self.browser.ignore_policy()
         self.open()
         shown = self.browser.execute_async_script("""
-            const [source, done] = arguments;
+            const [module, done] = arguments;
             (async () => {
-              const { NewestPicture } = await import(`data:text/javascript;base64,${source}`);
+              const { NewestPicture } = await import(module);
               const canvas = document.createElement('canvas');
               const blob = await new Promise((give) => canvas.toBlob(give, 'image/jpeg'));
               const good = new Uint8Array(await blob.arrayBuffer());
@@ -164,7 +162,7 @@ class Page(PageCase):
               await show(2, good).catch(() => shown.push('refused'));
               await show(3, good);
               done(shown);
-            })();""", base64.b64encode(module).decode())
+            })();""", module_address("appliance/newest_picture.js"))
         self.assertEqual(shown, ["refused", 3])
 
     def test_a_hidden_tab_takes_no_stream(self):
