@@ -33,6 +33,10 @@ inline constexpr ArgumentInfo kCameraArgument{"camera", "",        1,
                                               0,        kAnyIndex, "index of the camera, from 0"};
 /// Bound of machine coordinates, mm; 100 m exceed any machine.
 inline constexpr double kMaxCoordinate = 100000;
+inline constexpr ArgumentInfo coordinate_argument(std::string_view name,
+                                                  std::string_view description) {
+  return {name, "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, description};
+}
 inline constexpr ArgumentInfo pixel_argument(std::string_view name, std::string_view description) {
   return {name, "px", 0.01, -kMaxSide, kMaxSide, description};
 }
@@ -95,10 +99,8 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
   X(MarkPoint, 19, "mark_point", Integrator,                                                       \
     "Marks the tool's light at these coordinates, machine frame: its place in a camera's picture " \
     "becomes a point for place_camera, until the next restart",                                    \
-    kCameraArgument,                                                                               \
-    ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},               \
-    ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                    \
-    ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})                         \
+    kCameraArgument, coordinate_argument("x", "to the right"),                                     \
+    coordinate_argument("y", "forward"), coordinate_argument("z", "up"))                           \
   X(ForgetPoints, 20, "forget_points", Integrator, "Discards the points marked for a camera",      \
     kCameraArgument)                                                                               \
   X(PlaceCamera, 21, "place_camera", Integrator,                                                   \
@@ -143,9 +145,8 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
     ArgumentInfo{"last", "", 0.1, kLeastValue + 1, kMostValue, "value of the last colour"})        \
   X(ForgetPoint, 30, "forget_point", Integrator,                                                   \
     "Discards the point marked for a camera at these coordinates, machine frame", kCameraArgument, \
-    ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},               \
-    ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                    \
-    ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})
+    coordinate_argument("x", "to the right"), coordinate_argument("y", "forward"),                 \
+    coordinate_argument("z", "up"))
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

@@ -82,15 +82,19 @@ TEST(AlignmentJpeg, OfCountsTheRangeThatIsThereIsShown) {
   }
 }
 
-/// Yaw 0 looks back at the camera; what is right of the camera's picture, seen in a mirror, is left
-/// of the view.
-TEST(AlignmentJpeg, AViewIsMadeThroughTheBall) {
-  auto samples = counts(7400);
+optics::ViewSpec ahead() {
   optics::ViewSpec spec;
   spec.h_fov = 90;
   spec.width = 120;
   spec.height = 80;
-  const auto jpeg = alignment_jpeg(picture(samples), ball(), spec);
+  return spec;
+}
+
+/// Yaw 0 looks back at the camera; what is right of the camera's picture, seen in a mirror, is left
+/// of the view.
+TEST(AlignmentJpeg, AViewIsMadeThroughTheBall) {
+  auto samples = counts(7400);
+  const auto jpeg = alignment_jpeg(picture(samples), ball(), ahead());
   ASSERT_TRUE(jpeg) << jpeg.error().message;
   const cv::Mat shown = decoded(*jpeg);
   ASSERT_EQ(shown.size(), cv::Size(120, 80));
@@ -101,11 +105,7 @@ TEST(AlignmentJpeg, AViewIsMadeThroughTheBall) {
 TEST(AlignmentJpeg, AViewIsStretchedByItsOwnValues) {
   auto samples = counts(7400);
   heat(samples, 0.05);  // beside the ball
-  optics::ViewSpec spec;
-  spec.h_fov = 90;
-  spec.width = 120;
-  spec.height = 80;
-  const auto jpeg = alignment_jpeg(picture(samples), ball(), spec);
+  const auto jpeg = alignment_jpeg(picture(samples), ball(), ahead());
   ASSERT_TRUE(jpeg) << jpeg.error().message;
   const cv::Mat shown = decoded(*jpeg);
   EXPECT_GT(shown.at<std::uint8_t>(20, 10), 245);
