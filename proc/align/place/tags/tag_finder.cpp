@@ -4,43 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
-#include <type_traits>
 
 #include "proc/align/detect/picture/luminance.h"
 #include "proc/align/place/tags/mirror_view.h"
+#include "proc/align/place/tags/tag_detector.h"
 
 namespace orbwatch::align {
 namespace {
-
-using Dictionary = cv::aruco::Dictionary;
-
-/// OpenCV gives dictionaries as pointers up to 4.6, as values from 4.7 on.
-template <class Given>
-cv::Ptr<Dictionary> shared(const Given& dictionary) {
-  if constexpr (std::is_same_v<Given, cv::Ptr<Dictionary>>) {
-    return dictionary;
-  } else {
-    return cv::makePtr<Dictionary>(dictionary);
-  }
-}
-
-cv::Ptr<cv::aruco::DetectorParameters> parameters() {
-  auto p = cv::makePtr<cv::aruco::DetectorParameters>();
-  p->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
-  p->cornerRefinementMinAccuracy = 0.01;
-  // The white margin's outer edge is a square, too, and must not be merged with the border's.
-  p->minMarkerDistanceRate = 0.01;
-  // Windows are wider than two cells: a narrower one turns the black border into a frame with an
-  // inside.
-  p->adaptiveThreshWinSizeMin = 45;
-  p->adaptiveThreshWinSizeMax = 85;
-  p->adaptiveThreshWinSizeStep = 40;
-  // Straight edges are slightly bent in a view that assumes them to be far away.
-  p->polygonalApproxAccuracyRate = 0.05;
-  return p;
-}
 
 cv::Mat eight_bit(const cv::Mat& luminance) {
   if (luminance.depth() == CV_8U) return luminance;
@@ -56,16 +27,17 @@ struct Seen {
 };
 
 /// The tag in the ball's picture; nullopt if a corner is beyond the view or the ball.
-std::optional<Seen> seen(int id, const std::vector<cv::Point2f>& corners,
-                         const optics::BallProjection& ball, const optics::ViewProjection& view) {
-  Seen out{{id, {}}, 0};
+std::optional<Seen> seen(const TagInView& in_view, const optics::BallProjection& ball,
+                         const optics::ViewProjection& view) {
+  Seen out{{in_view.id, {}}, 0};
   cv::Point2d middle;
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto direction = view.direction(double(corners[k].x), double(corners[k].y));
+    const cv::Point2d corner = in_view.corners[k];
+    const auto direction = view.direction(corner.x, corner.y);
     const auto pixel = direction ? ball.pixel(*direction, 0) : std::nullopt;
     if (!pixel) return std::nullopt;
     out.tag.corners[k] = *pixel;
-    middle += cv::Point2d(corners[k]) / 4;
+    middle += corner / 4;
   }
   out.off_middle = std::hypot(middle.x - view.width() / 2.0, middle.y - view.height() / 2.0);
   return out;
@@ -93,18 +65,13 @@ Result<std::vector<FoundTag>> find_tags(const Picture& picture, const optics::Ou
   const auto ball = unplaced_projection(outline, lens);
   if (!ball) return tl::unexpected(ball.error());
   const cv::Mat luminance = eight_bit(luminance_of(picture));
-  const auto dictionary =
-      shared(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11));
+  TagDetector detector;
   std::map<int, Seen> found;
   for (const optics::ViewProjection& view : views_all_around(view_side(outline))) {
-    std::vector<std::vector<cv::Point2f>> corners;
-    std::vector<int> ids;
-    cv::aruco::detectMarkers(mirror_view(luminance, *ball, view), dictionary, corners, ids,
-                             parameters());
-    for (std::size_t n = 0; n < ids.size(); ++n) {
-      const auto tag = seen(ids[n], corners[n], *ball, view);
+    for (const TagInView& in_view : detector.detect(mirror_view(luminance, *ball, view))) {
+      const auto tag = seen(in_view, *ball, view);
       if (!tag) continue;
-      const auto [known, is_new] = found.try_emplace(ids[n], *tag);
+      const auto [known, is_new] = found.try_emplace(in_view.id, *tag);
       if (!is_new && tag->off_middle < known->second.off_middle) known->second = *tag;
     }
   }
