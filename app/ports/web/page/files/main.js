@@ -3,6 +3,7 @@ import { Align } from "./align/align.js";
 import { describeFigures } from "./appliance/api.js";
 import { Faults } from "./appliance/faults.js";
 import { Stream } from "./appliance/stream.js";
+import { Views } from "./appliance/views.js";
 import { element, setText } from "./elements/elements.js";
 import { Live } from "./live/live.js";
 import { Look } from "./look/look.js";
@@ -85,7 +86,7 @@ function makeSystem(section) {
 
 // Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost() and views.
 const tabs = [
-  { name: "live", make: (section) => new Live(section, faults, choose, isAtLeast("operator")) },
+  { name: "live", make: (section) => new Live(section, views, faults, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
   { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
   { name: "process",
@@ -98,7 +99,7 @@ const session = await admit(() => say(texts.connecting, true));
 // True: the user of the page may do what this role may.
 const isAtLeast = (role) => session.roles.includes(role);
 const links = addTabs();
-const faults = new Faults(), recipe = new Recipe();
+const views = new Views(), faults = new Faults(views), recipe = new Recipe();
 const notices = new Notices(document.getElementById("notices"), recipe, links,
   isAtLeast("integrator"));
 const figures = await figuresOfAppliance();
@@ -112,6 +113,7 @@ const stream = new Stream(
     if (message.head.kind === "view") return shown()?.picture(message);
     const status = JSON.parse(new TextDecoder().decode(message.body));
     showCondition(status);
+    views.status();
     faults.status(status);
     recipe.status(status);
     notices.status(status);
@@ -119,7 +121,7 @@ const stream = new Stream(
   },
   () => {
     say(texts.connecting, true);
-    faults.lost();
+    views.lost();
     for (const tab of made) tab.lost?.();
     askAgain();
   },

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Header of all pages: the recipe, and what needs a person: alarms that stand or are not acknowledged, cameras
 // that are not aligned, a configuration that is on trial or refused.
-import { post } from "./appliance/api.js";
+import { raisedAlarms } from "./appliance/alarms.js";
 import { element, setText } from "./elements/elements.js";
+import { trialEnds } from "./system/trial_end.js";
 import { texts } from "./texts.js";
 
-// Numbers of proc/signals/alarm.h and app/model/status/watch_status.h, which stay the same.
-const kNormal = 0, kSuppressed = 6;
-const kAlarmLevels = [1, 4, 5], kWarningLevels = [2, 3];
+// Numbers of app/model/status/watch_status.h, which stay the same.
 const kMoved = [2, 3], kNotRegistered = 4;
 const kNotAligned = 2;
-
-export function severity({ level, announced }) {
-  const isAmong = (levels) => levels.includes(level) || levels.includes(announced);
-  return isAmong(kAlarmLevels) ? 2 : isAmong(kWarningLevels) ? 1 : 0;
-}
-
-// Alarms that stand or are not acknowledged, the worst first.
-export function raisedAlarms(alarms) {
-  return alarms.filter(({ state }) => state !== kNormal && state !== kSuppressed)
-    .sort((one, other) => severity(other) - severity(one));
-}
 
 function alignmentNotice({ name, alignment, outline_check: check, outline_offset: percent }) {
   if (alignment === kNotRegistered) return texts.notices.notRegistered(name);
@@ -37,13 +25,13 @@ function show(link, text) {
   link.hidden = text === "";
 }
 
-// The trial that runs, with its end: a person looks at other pages meanwhile.
+// The trial that runs, with its end, for users who look at other pages meanwhile.
 class TrialNotice {
   constructor(mayChange) {
     this.text = element("span", { className: "wrong" });
     this.said = element("span", { className: "wrong" });
-    const buttons = mayChange ? [this.#button("confirm", texts.confirmFiles),
-      this.#button("revert", texts.revertFiles)] : [];
+    const buttons = mayChange
+      ? trialEnds((refused) => setText(this.said, refused ? texts.refused(refused) : "")) : [];
     this.root = element("p", { hidden: true }, this.text, ...buttons.flatMap((one) => [" ", one]), " ",
       this.said);
   }
@@ -52,15 +40,6 @@ class TrialNotice {
     this.root.hidden = seconds === 0;
     setText(this.text, seconds > 0 ? texts.notices.trial(seconds) : "");
     if (seconds === 0) setText(this.said, "");
-  }
-
-  #button(what, label) {
-    const button = element("button", { type: "button" }, label);
-    button.addEventListener("click", async () => {
-      const refused = await post(`api/v1/${what}_configuration`, {});
-      setText(this.said, refused ? texts.refused(refused) : "");
-    });
-    return button;
   }
 }
 

@@ -7,21 +7,20 @@ import { Tile } from "./tile.js";
 
 export class Live {
   #chosen = null; // names; null before the first status
-  #isStale = true; // data of the views may be older than a restart
 
   // `mayCommand`: the user may turn, mix and colour views.
-  constructor(root, faults, onChoice, mayCommand) {
-    Object.assign(this, { root, faults, onChoice });
+  constructor(root, views, faults, onChoice, mayCommand) {
+    Object.assign(this, { root, described: views, faults, onChoice });
     this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
     const tiles = element("div", { id: "tiles" });
     this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand));
     root.append(this.choices, tiles, element("p", {}, texts.liveHelp));
+    views.addEventListener("change", () => this.#describe());
     setInterval(() => this.#tick(), 250);
   }
 
   status(status) {
     if (!this.#chosen) this.#begin(status.views);
-    if (this.#isStale) this.#describe();
   }
 
   #begin(views) {
@@ -33,26 +32,14 @@ export class Live {
       this.choices.append(element("label", {}, box, " ", name));
       this.tiles.get(name);
     }
+    this.#describe();
     this.onChoice();
   }
 
-  async #describe() {
-    this.#isStale = false;
-    try {
-      const answer = await fetch("api/v1/views");
-      if (!answer.ok) throw new Error(`status ${answer.status}`);
-      const { views, colour_maps: maps } = await answer.json();
-      for (const view of views) {
-        if (this.#chosen.has(view.name)) this.tiles.get(view.name).describe(view, maps);
-      }
-    } catch (error) {
-      console.info(`views: ${error.message}`);
-      this.#isStale = true; // retried with the next status
+  #describe() {
+    for (const view of this.described.all) {
+      if (this.#chosen?.has(view.name)) this.tiles.get(view.name).describe(view, this.described.maps);
     }
-  }
-
-  lost() {
-    this.#isStale = true;
   }
 
   get isShown() {

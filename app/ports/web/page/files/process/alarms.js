@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The recipe's alarms, with their acknowledgement.
+import { raisedAlarms, severity } from "../appliance/alarms.js";
 import { command } from "../appliance/api.js";
 import { amountText } from "../elements/amounts.js";
 import { element, setText } from "../elements/elements.js";
 import { Keyed, titled } from "../elements/figures.js";
-import { raisedAlarms, severity } from "../notices.js";
 import { texts } from "../texts.js";
 
 const kSeverities = ["", "warning", "alarm"];  // classes by severity

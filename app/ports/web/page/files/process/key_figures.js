@@ -5,7 +5,7 @@ import { figureText, unitSymbol } from "../elements/amounts.js";
 import { freshBrush, pointsOf, strokeCurve, valuesOf } from "../elements/curve.js";
 import { element, setText } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
-import { raisedAlarms } from "../notices.js";
+import { raisedAlarms } from "../appliance/alarms.js";
 import { texts } from "../texts.js";
 import { worstOf } from "./alarms.js";
 

@@ -2,8 +2,9 @@
 // New texts of the configuration: checked, tried out, confirmed or reverted. The appliance restarts with them
 // meanwhile.
 import { answerTo } from "../appliance/api.js";
-import { element, setText } from "../elements/elements.js";
+import { commandButton, element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { trialEnds } from "./trial_end.js";
 
 const kPath = "api/v1/configuration";
 const kUsualSeconds = 60;
@@ -22,20 +23,14 @@ export class Trial {
     this.difference.setAttribute("aria-label", texts.difference);
     this.seconds = element("input", {
       type: "number", min: 10, max: 3600, value: kUsualSeconds, name: "seconds" });
-    this.waiting = element("p", { hidden: true }, element("strong", { role: "timer" }), " ",
-      this.#button(texts.confirmFiles, () => this.#end("confirm", texts.confirmed)), " ",
-      this.#button(texts.revertFiles, () => this.#end("revert", texts.reverted)));
+    const ends = trialEnds((refused, done) => this.#ended(refused, done));
+    this.waiting = element("p", { hidden: true }, element("strong", { role: "timer" }),
+      ...ends.flatMap((button) => [" ", button]));
     this.head = element("div", { className: "trial" }, this.said, this.waiting);
     this.foot = element("div", { className: "trial" }, element("p", {},
-      this.#button(texts.checkFiles, () => this.#check()), " ",
+      commandButton(texts.checkFiles, "check", () => this.#check()), " ",
       element("label", {}, texts.trySeconds, " ", this.seconds), " ",
-      this.#button(texts.tryFiles, () => this.#try())), this.difference);
-  }
-
-  #button(label, act) {
-    const button = element("button", { type: "button" }, label);
-    button.addEventListener("click", act);
-    return button;
+      commandButton(texts.tryFiles, "try", () => this.#try())), this.difference);
   }
 
   say(text, isWrong = false) {
@@ -91,10 +86,9 @@ export class Trial {
     await this.refresh();
   }
 
-  async #end(what, done) {
-    const { refused } = await answerTo(`api/v1/${what}_configuration`, {});
+  #ended(refused, done) {
     this.say(refused ? texts.refused(refused) : done, Boolean(refused));
     if (!refused) this.#trial = null;
-    await this.refresh();
+    return this.refresh();
   }
 }

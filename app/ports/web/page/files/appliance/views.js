@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The views as /api/v1/views has them, loaded once and again after a lost connection.
+export class Views extends EventTarget {
+  #isStale = true; // the views may be older than a restart
+  all = [];
+  maps = [];
+
+  async status() {
+    if (!this.#isStale) return;
+    this.#isStale = false;
+    try {
+      const answer = await fetch("api/v1/views");
+      if (!answer.ok) throw new Error(`status ${answer.status}`);
+      ({ views: this.all, colour_maps: this.maps } = await answer.json());
+      this.dispatchEvent(new Event("change"));
+    } catch (error) {
+      console.info(`views: ${error.message}`);
+      this.#isStale = true; // retried with the next status
+    }
+  }
+
+  lost() {
+    this.#isStale = true;
+  }
+
+  // Names of the cameras of a view; none: the view is unknown yet.
+  camerasOf(name) {
+    return this.all.find((view) => view.name === name)?.sources.map(({ camera }) => camera) ?? [];
+  }
+}
