@@ -96,6 +96,7 @@ class Glance(PageCase):
         self.expect_fits_its_width()
         self.assertEqual(self.cut(), [])
         self.show(390, 844, "system")
+        self.open_all("system")
         eventually("figures", lambda: len(self.boxes("#system .figures td.figure")) > 10)
         self.assertEqual(self.cut(), [])
 

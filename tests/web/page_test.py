@@ -129,9 +129,10 @@ class Page(PageCase):
 
     def test_figures_are_those_of_the_interface(self):
         self.open("system")
+        self.browser.find_element(By.CSS_SELECTOR, "#state > summary").click()
         status = self.appliance.status()
         rows = eventually("the figures", lambda: self.browser.execute_script(
-            "return [...document.querySelectorAll('#system details[open] tbody tr')]"
+            "return [...document.querySelectorAll('#state tbody tr')]"
             ".map((r) => [...r.children].map((c) => c.textContent))"))
         shown = {row[0]: row[1:] for row in rows}
         self.assertEqual(set(shown), {name for name in status["system"]

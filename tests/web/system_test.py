@@ -5,8 +5,10 @@ Folders: app/ports/web/log app/ports/web/interfaces app/ports/web/page/files/sys
 """
 
 import json
+import pathlib
 import socket
 import struct
+import tempfile
 import unittest
 import urllib.error
 import urllib.request
@@ -80,6 +82,7 @@ class SystemPage(PageCase):
 
     def test_log_shows_what_is_logged_while_one_looks(self):
         self.open("log")
+        eventually("lines of all levels", lambda: self.rows("#log"))
         self.browser.find_element(By.CSS_SELECTOR, "#log select").send_keys("error")
         eventually("the lines of that level", lambda: self.rows("#log") == [])
         text = self.appliance.site.read_text(encoding="utf-8")
@@ -89,7 +92,28 @@ class SystemPage(PageCase):
             self.appliance.command("restart")
         eventually("why it does not restart", lambda: any(
             row[1] == "error" and "demo.toml:1" in row[2] for row in self.rows("#log")))
+        eventually("the card counts it", lambda: self.browser.text("#log .state").startswith("1 error,"))
+        colours = {level: self.browser.execute_script(
+            "return getComputedStyle(document.querySelector(arguments[0])).color", f"#log tr.{level} td")
+            for level in ("info", "error")}
+        self.assertNotEqual(colours["info"], colours["error"])
         self.assertEqual(self.browser.complaints(), [])
+
+    def test_log_is_filtered_by_text_and_saved_as_it_is_shown(self):
+        self.open("log")
+        everything = eventually("lines", lambda: self.rows("#log"))
+        self.browser.find_element(By.CSS_SELECTOR, "#log [type=search]").send_keys("2 CAMERAS")
+        shown = self.rows("#log")
+        self.assertLess(len(shown), len(everything))
+        self.assertTrue(all("2 cameras" in row[2].lower() for row in shown) and shown)
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": folder})
+            self.browser.find_element(By.CSS_SELECTOR, "#log a.button").click()
+            file = eventually("the file", lambda: next(pathlib.Path(folder).glob("orbwatch.log"), None))
+            saved = file.read_text(encoding="utf-8").splitlines()
+        self.assertEqual([line.split(" ", 2)[1:] for line in saved], [row[1:] for row in reversed(shown)])
+        times = {line["time"] for line in self.appliance.get("log")["lines"]}
+        self.assertLessEqual({line.split(" ")[0] for line in saved}, times)
 
     def test_interfaces_show_registers_clients_and_topics(self):
         with socket.create_connection(("127.0.0.1", self.appliance.modbus_port), timeout=60) as plc:

@@ -11,18 +11,13 @@ import { Notices } from "./notices.js";
 import { Process } from "./process/process.js";
 import { Recipe } from "./process/recipe.js";
 import { admit, askAgain } from "./system/access.js";
-import { Configuration } from "./system/configuration.js";
 import { Fleet } from "./system/fleet.js";
-import { Interfaces, showAbout } from "./system/interfaces.js";
-import { Log } from "./system/log.js";
-import { People } from "./system/people.js";
 import { System } from "./system/system.js";
 import { texts } from "./texts.js";
 
 const kRetryMs = 500;
 const kSilenceS = 2;
 const condition = document.getElementById("condition");
-let configuration = null; // the files, of who may change them
 
 function say(text, isWrong) {
   setText(condition, text);
@@ -72,26 +67,15 @@ function showCondition(status) {
   say(isSilent ? texts.silent : state_text, isSilent || state !== figures.system.state.codes.running);
 }
 
-function makeSystem(section) {
-  const system = new System(section, figures);
-  if (isAtLeast("operator")) new Log(section);
-  showAbout(section);
-  if (isAtLeast("integrator")) {
-    new Interfaces(section);
-    configuration = new Configuration(section);
-  }
-  if (session.has_users && isAtLeast("administrator")) new People(section, session);
-  return system;
-}
-
-// Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost() and views.
+// Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost(),
+// views, and isChanged: it has changes that are not sent.
 const tabs = [
   { name: "live", make: (section) => new Live(section, views, faults, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
   { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
   { name: "process",
     make: (section) => new Process(section, faults, recipe, figures, isAtLeast("integrator"), choose) },
-  { name: "system", make: makeSystem },
+  { name: "system", make: (section) => new System(section, views, figures, session) },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
 
@@ -129,6 +113,6 @@ const stream = new Stream(
 addEventListener("hashchange", choose);
 // The browser asks before unsent changes are lost.
 addEventListener("beforeunload", (event) => {
-  if (recipe.body || configuration?.isChanged) event.preventDefault();
+  if (recipe.body || made.some((tab) => tab.isChanged)) event.preventDefault();
 });
 choose();

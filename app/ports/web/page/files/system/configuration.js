@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of the configuration, to be changed as texts.
+import { Card } from "../elements/card.js";
+import { downloadLink } from "../elements/download.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { Trial } from "./trial.js";
-
-const kKeptMs = 1000;  // lifetime of a download's text, for the browser to read it
 
 // Text fields support only \n as line end.
 const plain = (text) => text.replaceAll("\r\n", "\n");
@@ -19,13 +19,7 @@ class FileEditor {
     this.area = element("textarea", { rows: 16, spellcheck: false, readOnly: !mayChange, wrap: "off" });
     this.area.setAttribute("aria-label", name);
     this.mark = element("span", {});
-    const download = element("a", { className: "button", download: name.split("/").pop() },
-      texts.download);
-    download.addEventListener("click", () => {
-      download.href = URL.createObjectURL(new Blob([this.text]));
-      setTimeout(() => URL.revokeObjectURL(download.href), kKeptMs);
-    });
-    download.href = "#";
+    const download = downloadLink(name.split("/").pop(), () => this.text);
     this.reload = element("button", { type: "button", hidden: true }, texts.reloadFile);
     this.reload.addEventListener("click", () => this.#takeFromDisk());
     this.root = element("details", {}, element("summary", {}, name, " ", this.mark), this.area,
@@ -75,19 +69,24 @@ class FileEditor {
 export class Configuration {
   #editors = new Map();
 
-  constructor(root) {
-    this.trial = new Trial("configuration", () => this.#changed(), () => this.opened.open,
+  constructor() {
+    this.card = new Card("configuration", texts.configurationTitle);
+    this.root = this.card.root;
+    this.trial = new Trial("configuration", () => this.#changed(), () => this.card.isOpen,
       { onState: (state) => this.#show(state) });
     this.refusal = element("p", { className: "wrong" });
     this.files = element("div");
     this.upload = element("input", { type: "file", multiple: true, accept: ".toml,.yaml,.yml" });
     this.upload.addEventListener("change", () => this.#takeFiles());
-    this.opened = element("details", { id: "configuration" },
-      element("summary", {}, texts.configurationTitle),
-      this.refusal, this.trial.head, this.files,
+    this.card.append(this.refusal, this.trial.head, this.files,
       element("p", {}, element("label", {}, texts.uploadFiles, " ", this.upload)), this.trial.foot);
-    this.opened.addEventListener("toggle", () => this.trial.refresh());
-    root.append(this.opened);
+    this.card.whenOpened(() => this.trial.refresh());
+  }
+
+  status({ system }) {
+    const isRefused = system.configuration_refused;
+    this.card.say(isRefused ? texts.notices.refused
+      : system.trial_left > 0 ? texts.notices.trial(system.trial_left) : texts.filesCount, isRefused);
   }
 
   // True: texts were typed that are not in the files.

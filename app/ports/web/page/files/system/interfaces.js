@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of the interfaces, updated while shown: registers, clients, topics.
+// Figures of the interfaces and, updated while shown, their tables: registers, clients, topics.
 import { figureText } from "../elements/amounts.js";
+import { Card } from "../elements/card.js";
 import { element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { Components } from "./components.js";
+import { kKindsOfOverview } from "./overview.js";
 
 const kAgainMs = 2000;
+// Kinds of the status that other parts of the page show, or that are not a component.
+const kElsewhere = new Set(["stamp", "age", "regions", "alarms", "stages", ...kKindsOfOverview]);
 
 // One table, whose rows are recreated when their number changes.
 class LiveTable {
@@ -49,17 +54,29 @@ export class Interfaces {
   #tables = new Map();
   #again = 0;
 
-  constructor(root) {
+  // `mayRead`: the user may read the tables.
+  constructor(figures, mayRead) {
     this.said = element("p", { role: "status", className: "wrong" });
-    this.opened = element("details", { id: "interfaces" },
-      element("summary", {}, texts.interfaces), this.said);
-    this.opened.addEventListener("toggle", () => this.#read());
-    root.append(this.opened);
+    this.components = new Components(figures);
+    this.card = new Card("interfaces", texts.interfaces);
+    this.card.append(this.components.root, this.said);
+    if (mayRead) this.card.whenOpened(() => this.#read());
+    this.root = this.card.root;
+  }
+
+  status(status) {
+    const { connections, streams } = status.web;
+    const isFaulty = status.system.interface_faults !== 0 || status.system.line_faults !== 0;
+    this.card.say(isFaulty ? texts.cards.interfaceFault : texts.cards.connected(connections, streams), isFaulty);
+    if (!this.card.isOpen) return;
+    for (const [kind, part] of Object.entries(status)) {
+      if (!kElsewhere.has(kind)) this.components.show(kind, part);
+    }
   }
 
   async #read() {
     clearTimeout(this.#again);
-    if (!this.opened.open) return;
+    if (!this.card.isOpen) return;
     const answer = document.hidden ? null : await fetch("api/v1/interfaces").catch(() => null);
     const read = await answer?.json().catch(() => null);
     setText(this.said, read?.error ? texts.refused(read.error) : "");
@@ -78,21 +95,8 @@ export class Interfaces {
       const made = new LiveTable(title);
       made.root.addEventListener("toggle", () => this.#read());
       this.#tables.set(title, made);
-      this.opened.append(made.root);
+      this.card.append(made.root);
     }
     return this.#tables.get(title);
   }
-}
-
-// Versions, and interfaces that accept commands, loaded once.
-export async function showAbout(root) {
-  const answer = await fetch("api/v1/about").catch(() => null);
-  if (!answer?.ok) return;
-  const { versions, commanders } = await answer.json();
-  const { root: shown, body } = table([texts.program, texts.version], texts.about);
-  for (const [name, version] of Object.entries(versions)) {
-    body.append(element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, version)));
-  }
-  root.append(element("details", { id: "about" }, element("summary", {}, texts.about),
-    element("p", {}, texts.commanders(commanders)), shown));
 }

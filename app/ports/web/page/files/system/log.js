@@ -1,58 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest lines of the appliance's log, updated while shown.
+// The newest lines of the appliance's log, updated while the page is shown, filtered by severity and text.
+import { Card } from "../elements/card.js";
 import { momentText, timeZone } from "../elements/clock.js";
+import { downloadLink } from "../elements/download.js";
 import { element, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kAgainMs = 1000;
-const kMostShown = 500;
-const kLevels = ["info", "warning", "error"];
+const kMostLines = 1000; // as many as the appliance keeps
+const kLevels = ["info", "warning", "error"]; // ascending
 
 export class Log {
   #newest = 0;
-  #again = 0;
-  #asked = 0;  // request number, so that answers for another level are ignored
+  #lines = []; // {line, row}, the newest first
+  #isReading = false;
 
-  constructor(root) {
+  // `isShown()`: the page is visible.
+  constructor(isShown) {
+    this.isShown = isShown;
     this.said = element("p", { role: "status", className: "wrong" });
-    this.level = element("select", { name: "level" },
-      ...kLevels.map((level) => element("option", {}, level)));
-    this.level.addEventListener("change", () => this.#begin());
-    this.lines = table([texts.when(timeZone), texts.level, texts.what], texts.log);
-    this.opened = element("details", { id: "log" }, element("summary", {}, texts.log),
-      element("label", {}, texts.leastLevel, " ", this.level), this.said, this.lines.root);
-    this.opened.addEventListener("toggle", () => this.#begin());
-    root.append(this.opened);
+    this.level = element("select", { name: "level" }, ...kLevels.map((level) => element("option", {}, level)));
+    this.wanted = element("input", { type: "search", name: "wanted" });
+    this.level.addEventListener("change", () => this.#filter());
+    this.wanted.addEventListener("input", () => this.#filter());
+    this.table = table([texts.when(timeZone), texts.level, texts.what], texts.log);
+    this.card = new Card("log", texts.log);
+    this.card.append(element("p", { className: "buttons" },
+      element("label", {}, texts.leastLevel, " ", this.level), element("label", {}, texts.filter, " ", this.wanted),
+      downloadLink("orbwatch.log", () => this.text)), this.said, this.table.root);
+    this.root = this.card.root;
+    setInterval(() => this.#read(), kAgainMs);
+    addEventListener("hashchange", () => this.#read());
+    this.#read();
   }
 
-  #begin() {
-    this.#newest = 0;
-    this.lines.body.replaceChildren();
-    this.#read(++this.#asked);
+  // The lines that are shown, the oldest first.
+  get text() {
+    return this.#lines.filter(({ row }) => !row.hidden).reverse()
+      .map(({ line: { time, level, text } }) => `${time} ${level} ${text}\n`).join("");
   }
 
-  async #read(asked) {
-    clearTimeout(this.#again);
-    if (!this.opened.open || asked !== this.#asked) return;
-    const query = new URLSearchParams({
-      lines: kMostShown, level: this.level.value, after: this.#newest });
-    const answer = document.hidden ? null : await fetch(`api/v1/log?${query}`).catch(() => null);
+  async #read() {
+    if (this.#isReading || document.hidden || !this.isShown()) return;
+    this.#isReading = true;
+    const query = new URLSearchParams({ lines: kMostLines, after: this.#newest });
+    const answer = await fetch(`api/v1/log?${query}`).catch(() => null);
     const read = await answer?.json().catch(() => null);
-    if (asked !== this.#asked) return;
     setText(this.said, read?.error ? texts.refused(read.error) : "");
     if (read?.lines) this.#show(read);
-    this.#again = setTimeout(() => this.#read(asked), kAgainMs);
+    this.#isReading = false;
   }
 
   // The newest lines are on top. After a restart the appliance counts from 1 again.
   #show({ lines, newest }) {
-    if (newest < this.#newest) return this.#begin();
-    for (const line of lines) {
-      this.lines.body.prepend(element("tr", { className: line.level },
-        element("td", {}, momentText(line.time)), element("td", {}, line.level),
-        element("td", {}, line.text)));
+    if (newest < this.#newest) {
+      this.#lines = [];
+      this.#newest = 0;
+      return this.table.body.replaceChildren();
     }
     this.#newest = newest;
-    while (this.lines.body.rows.length > kMostShown) this.lines.body.deleteRow(-1);
+    for (const line of lines) this.#add(line);
+    for (const { row } of this.#lines.splice(kMostLines)) row.remove();
+    this.#summarize();
+  }
+
+  #add(line) {
+    const row = element("tr", { className: line.level }, element("td", {}, momentText(line.time)),
+      element("td", {}, line.level), element("td", {}, line.text));
+    row.hidden = !this.#isWanted(line);
+    this.#lines.unshift({ line, row });
+    this.table.body.prepend(row);
+  }
+
+  #isWanted({ level, text }) {
+    return kLevels.indexOf(level) >= this.level.selectedIndex
+      && text.toLowerCase().includes(this.wanted.value.toLowerCase());
+  }
+
+  #filter() {
+    for (const { line, row } of this.#lines) row.hidden = !this.#isWanted(line);
+  }
+
+  #summarize() {
+    const count = (level) => this.#lines.filter(({ line }) => line.level === level).length;
+    this.card.say(texts.cards.log(count("error"), count("warning")), count("error") > 0);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Users, tokens of programs and the audit, for administrators.
 import { answerTo, post } from "../appliance/api.js";
+import { Card } from "../elements/card.js";
 import { momentText, timeZone } from "../elements/clock.js";
 import { element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -14,14 +15,14 @@ function roleField(roles) {
 
 export class People {
   // `session`: who uses the page, as /api/v1/session has it.
-  constructor(root, { roles, password_characters: characters }) {
+  constructor({ roles, password_characters: characters }) {
     this.said = element("p", { role: "status" });
     this.users = table([texts.user, texts.role, ""], texts.people);
     this.tokens = table([texts.program, texts.role, ""], texts.programs);
     this.done = table([texts.when(timeZone), texts.who, texts.from, texts.what, texts.before, texts.after,
                        texts.result], texts.audit);
-    this.opened = element("details", { id: "people" }, element("summary", {}, texts.peopleTitle),
-      this.said,
+    this.card = new Card("people", texts.peopleTitle, texts.cards.people);
+    this.card.append(this.said,
       element("h3", {}, texts.people), this.users.root,
       this.#form(texts.setUser, "api/v1/set_user", [
         field(texts.user, { name: "user", autocomplete: "off" }), roleField(roles),
@@ -32,8 +33,8 @@ export class People {
       this.#form(texts.createToken, "api/v1/create_token", [
         field(texts.program, { name: "name", autocomplete: "off" }), roleField(roles)]),
       element("h3", {}, texts.audit), this.done.root);
-    this.opened.addEventListener("toggle", () => this.opened.open && this.#refresh());
-    root.append(this.opened);
+    this.card.whenOpened(() => this.#refresh());
+    this.root = this.card.root;
   }
 
   #form(action, path, fields) {

@@ -1,33 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Complete status of the appliance, its cameras and views.
+// The appliance itself in cards: its state, its interfaces, and changes of it by the roles that may.
 import { element } from "../elements/elements.js";
-import { FigureTable, Keyed } from "../elements/figures.js";
+import { About } from "./about.js";
+import { Configuration } from "./configuration.js";
+import { Control } from "./control.js";
+import { Interfaces } from "./interfaces.js";
+import { Log } from "./log.js";
+import { overview } from "./overview.js";
+import { People } from "./people.js";
 import { Stages } from "./stages.js";
 
-// Shown elsewhere, or not a component.
-const kElsewhere = new Set(["stamp", "age", "regions", "alarms", "stages"]);
-
 export class System {
-  constructor(root, figures) {
-    this.parts = new Keyed(root, (key) => {
-      const [kind, name] = JSON.parse(key);
-      const table = new FigureTable(figures[kind] ?? {});
-      const title = name ? `${kind}: ${name}` : kind;
-      table.root.setAttribute("aria-label", title);
-      const opened = element("details", { open: kind === "system" },
-        element("summary", {}, title), table.root);
-      return { root: opened, show: (part) => opened.open && table.show(part) };
-    });
-    this.stages = new Stages(root);
+  // `session`: of the user of the page, as /api/v1/session has it.
+  constructor(root, views, figures, session) {
+    this.root = root;
+    const may = (role) => session.roles.includes(role), isShown = () => !root.hidden;
+    this.configuration = may("integrator") ? new Configuration() : null;
+    this.parts = [
+      ...overview(figures),
+      new Stages(),
+      new Interfaces(figures, may("integrator")),
+      may("operator") && new Log(isShown),
+      may("operator") && new Control(views, may("integrator")),
+      this.configuration,
+      session.has_users && may("administrator") && new People(session),
+      new About(),
+    ].filter(Boolean);
+    root.append(element("div", { id: "overview" }, ...this.parts.map((part) => part.root)));
+  }
+
+  // True: texts of the configuration were typed that are not in the files.
+  get isChanged() {
+    return this.configuration?.isChanged ?? false;
   }
 
   status(status) {
-    this.stages.show(status.stages, status.system.load);
-    for (const [kind, part] of Object.entries(status)) {
-      if (kElsewhere.has(kind)) continue;
-      for (const one of [part].flat()) {
-        this.parts.get(JSON.stringify([kind, one.name ?? ""])).show(one);
-      }
-    }
+    if (this.root.hidden) return;
+    for (const part of this.parts) part.status?.(status);
   }
 }
