@@ -18,6 +18,7 @@ from page_case import ZONE, PageCase
 
 PASSWORD = "correct horse battery"
 NEXT_PASSWORD = "a forgotten one replaced"
+OWN_PASSWORD = "chosen by its own user"
 
 
 class Access(PageCase):
@@ -179,6 +180,48 @@ class Access(PageCase):
         self.fill_access(user="admin", password=NEXT_PASSWORD)
         self.open_people()
         self.assertEqual(self.browser.barriers(), [])
+
+    def log_in_elsewhere(self, password):
+        """Cookie of a session without the page; None: refused."""
+        request = urllib.request.Request(
+            f"{self.appliance.address}api/v1/login", json.dumps({"user": "admin", "password": password}).encode(),
+            {"Content-Type": "application/json"})
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return answer.headers["Set-Cookie"].split(";")[0]
+        except urllib.error.HTTPError as error:
+            error.close()
+            self.assertEqual(error.code, 401)
+            return None
+
+    def test_9_a_user_changes_the_own_password(self):
+        elsewhere = {"Cookie": self.log_in_elsewhere(NEXT_PASSWORD)}
+        self.assertEqual(self.status_of("api/v1/status", elsewhere), 200)
+        self.browser.get(f"{self.appliance.address}#/system")
+        self.fill_access(user="admin", password=NEXT_PASSWORD)
+        eventually("the card", lambda: self.browser.find_elements(By.CSS_SELECTOR, "#password > summary"))[0].click()
+        self.assertIn("admin, administrator", self.browser.text("#password .state"))
+        form = self.browser.find_element(By.CSS_SELECTOR, "#password form")
+
+        def said(what):
+            eventually(what, lambda: what in self.browser.text("#password [role=status]"))
+
+        self.submit(form, old=NEXT_PASSWORD, password=OWN_PASSWORD, again=OWN_PASSWORD + "x")
+        said("the two passwords differ")
+        self.submit(form, old=PASSWORD, password=OWN_PASSWORD, again=OWN_PASSWORD)
+        said("password is wrong")
+        self.assertEqual(self.status_of("api/v1/status", elsewhere), 200)
+        self.submit(form, old=NEXT_PASSWORD, password=OWN_PASSWORD, again=OWN_PASSWORD)
+        said("Changed")
+        self.browser.keep_picture("own-password")
+        self.assertEqual(self.status_of("api/v1/status", elsewhere), 401)
+        self.assertEqual(self.session()["user"], "admin")
+        self.assertIsNone(self.log_in_elsewhere(NEXT_PASSWORD))
+        self.assertIsNotNone(self.log_in_elsewhere(OWN_PASSWORD))
+        # The page continues with its new session.
+        self.browser.execute_script("location.hash = '#/live'")
+        self.expect_live()
+        self.assertFalse(self.browser.find_element(By.ID, "access").is_displayed())
 
 
 if __name__ == "__main__":

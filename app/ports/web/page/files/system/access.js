@@ -44,7 +44,7 @@ function showLogin(onDone) {
   ], texts.logIn, (values) => post("api/v1/login", values), onDone);
 }
 
-function newPasswordFields(characters) {
+export function newPasswordFields(characters) {
   const properties = { type: "password", autocomplete: "new-password", minLength: characters };
   return [
     field(texts.newPassword(characters), { name: "password", ...properties }),

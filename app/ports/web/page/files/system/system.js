@@ -7,6 +7,7 @@ import { Control } from "./control.js";
 import { Interfaces } from "./interfaces.js";
 import { Log } from "./log.js";
 import { overview } from "./overview.js";
+import { OwnPassword } from "./own_password.js";
 import { People } from "./people.js";
 import { Stages } from "./stages.js";
 
@@ -24,6 +25,7 @@ export class System {
       may("operator") && new Control(views, may("integrator")),
       this.configuration,
       session.has_users && may("administrator") && new People(session),
+      session.has_users && new OwnPassword(session),
       new About(),
     ].filter(Boolean);
     root.append(element("div", { id: "overview" }, ...this.parts.map((part) => part.root)));
