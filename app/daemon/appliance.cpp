@@ -51,7 +51,7 @@ std::shared_ptr<Lines> open_lines(const files::Configuration& site) {
   });
 }
 
-/// Time until `end` in started seconds; 0: `end` is max.
+/// Time until `end`, rounded up to whole seconds and at least 1 s; 0: `end` is max.
 std::uint32_t seconds_until(hal::TimePoint end, hal::TimePoint now) {
   if (end == hal::TimePoint::max()) return 0;
   const auto left = std::chrono::ceil<std::chrono::seconds>(end - now).count();

@@ -85,7 +85,7 @@ void AlignRoutes::request(const CameraQuery& query, AlignmentPicture picture,
     return;
   }
   picture.camera = *camera;
-  // Of a pair, the first camera's picture comes first.
+  // The first camera's picture is the first one of a pair.
   const auto on_pictures = [exchange, names = std::vector{cameras_.front(), query.camera},
                             is_pair = picture.is_beside_first](const Result<AlignmentJpegs>& made) {
     exchange->answer(!made     ? error_response(409, made.error().message)

@@ -85,7 +85,7 @@ TEST_F(Served, FilesOfThePageAreSentAgainOnlyWhenTheyHaveChanged) {
   }
 }
 
-/// Where nothing is bundled, the file is the source.
+/// Files that are not bundled are the sources themselves.
 TEST_F(Served, HtmlAndIconAreServedAsTheyWereWritten) {
   start();
   EXPECT_EQ(get(port(), "/").body, read(kFolder / "index.html"));

@@ -68,7 +68,7 @@ export class Align {
     setInterval(() => this.#age(), 250);
   }
 
-  // What each step changes: the picture, and the commands that judge a proposal.
+  // Parts that all steps change: the camera's picture, and the commands that judge a proposal.
   #makeSeen() {
     const { accept, undo, discard, revert } = this.buttons;
     return element("div", { className: "seen" },
