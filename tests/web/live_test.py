@@ -93,6 +93,9 @@ class Live(PageCase):
         self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
         return canvas
 
+    def unlock(self, view):
+        self.tile(view).find_element(By.CLASS_NAME, "locked").click()
+
     def reading(self, view):
         """Reading of a pixel on the tile, with its place: {text, u, v, number}, or null without
         one."""
@@ -196,6 +199,12 @@ class Live(PageCase):
     def test_hand_wheel_and_keys_turn_a_view(self):
         self.open()
         canvas = self.canvas("heat")
+        before = self.view("heat")["aim"]
+        ActionChains(self.browser).drag_and_drop_by_offset(canvas, 60, 30).perform()
+        self.assertIn("Locked", self.tile("heat").find_element(By.CSS_SELECTOR, "[role=alert]").text)
+        self.assertEqual(self.view("heat")["aim"], before)
+        self.unlock("heat")
+        self.assertEqual(self.tile("heat").find_element(By.CSS_SELECTOR, "[role=alert]").text, "")
         degrees = H_FOV / canvas.size["width"]
         ActionChains(self.browser).drag_and_drop_by_offset(canvas, 60, 30).perform()
         yaw, pitch = YAW - 60 * degrees, PITCH + 30 * degrees
@@ -212,6 +221,16 @@ class Live(PageCase):
         self.expect_aim("heat", YAW, PITCH, H_FOV)
         self.assertEqual(self.browser.complaints(), [])
 
+    def test_back_turns_a_locked_view_to_its_configured_direction(self):
+        self.open()
+        self.assertEqual(self.command("point_view", view=self.view("heat")["index"], yaw=10, pitch=5, h_fov=60)[0], 200)
+        self.expect_aim("heat", 10, 5, 60)
+        self.tile("heat").find_element(By.CLASS_NAME, "back").click()
+        self.expect_aim("heat", YAW, PITCH, H_FOV)
+        for name in ("locked", "back"):
+            self.assertFalse(self.tile("process").find_element(By.CLASS_NAME, name).is_displayed())
+        self.assertEqual(self.browser.complaints(), [])
+
     def test_fingers_read_and_turn_a_view(self):
         self.open()
         canvas = self.canvas("heat")
@@ -219,6 +238,7 @@ class Live(PageCase):
         said, known = self.read_with_the_interface("heat")
         self.assertIn(f"{known['temperature']:.1f} °C", said["text"])
         self.assertTrue(self.tile("heat").find_element(By.CLASS_NAME, "crosshair").is_displayed())
+        self.unlock("heat")
         self.browser.pinch(canvas)
         eventually("it is zoomed to a half", lambda: abs(
             self.view("heat")["aim"]["h_fov"] - H_FOV / 2) < 0.2)
@@ -321,7 +341,7 @@ class Live(PageCase):
         with tempfile.TemporaryDirectory() as folder:
             self.browser.execute_cdp_cmd("Browser.setDownloadBehavior",
                                          {"behavior": "allow", "downloadPath": folder})
-            self.tile("heat").find_element(By.XPATH, ".//button[text()='Snapshot']").click()
+            self.tile("heat").find_element(By.CLASS_NAME, "cameras").click()
             file = eventually("the file is there", lambda: next(
                 pathlib.Path(folder).glob("heat-*.jpg"), None))
             picture = cv2.imread(str(file))  # it has this name once it is complete

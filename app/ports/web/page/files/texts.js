@@ -59,12 +59,22 @@ export const texts = {
   noPicture: "no picture yet",
   age: (ms) => (ms < 10000 ? `${Math.round(ms / 10) * 10} ms old` : `${Math.round(ms / 1000)} s old`),
   stale: (ms) => `No new picture for ${Math.round(ms / 1000)} s`,
-  snapshot: "Snapshot",
-  fullScreen: "Full screen",
+  tile: {
+    cameras: (name) => `Snapshot of ${name}`,
+    full: (name) => `Show ${name} on the full screen`,
+    locked: (name) => `Turn ${name} by hand, for all users`,
+    back: (name) => `Back: turn ${name} to its configured direction, for all users`,
+    enlarge: (name) => `Make ${name} the large one`,
+  },
+  layouts: "Layout",
+  layout: (count) => (count === 0 ? "One large and several small" : count === 1 ? "One view" : `${count} views`),
+  help: "Help",
   pictureOf: (name) => `Picture of view ${name}: arrow keys move a crosshair`,
   liveHelp: "Point at a picture, or tap it, to read its values there; arrow keys move a crosshair, with " +
-    "Ctrl by one pixel, Escape removes it. Drag a picture, or press Shift and arrow keys, to turn its view " +
-    "for all users; + and -, two fingers or, once it was clicked, the wheel zoom, Home resets it.",
+    "Ctrl by one pixel, Escape removes it. A view is locked until its lock is pressed. Then drag it, or press " +
+    "Shift and arrow keys, to turn it for all users; + and -, two fingers or, once it was clicked, the wheel zoom, " +
+    "Home resets it. Back turns it to its configured direction.",
+  locked: "Locked: press its lock to turn the view, for all users.",
   staysPut: (isMeasured, mayCommand) => (!mayCommand ? "Only operators may turn views."
     : isMeasured ? "This view is measured: the recipe fixes its direction."
       : "A ball's own picture cannot be turned; turn it under Look around."),

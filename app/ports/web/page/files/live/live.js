@@ -3,18 +3,22 @@
 import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { texts } from "../texts.js";
+import { Layouts } from "./layouts.js";
 import { Tile } from "./tile.js";
 
 export class Live {
   #chosen = null; // names; null before the first status
+  #large = ""; // name of the large one, where the layout has one
 
   // `mayCommand`: the user may turn, mix and colour views.
   constructor(root, views, faults, onChoice, mayCommand) {
     Object.assign(this, { root, described: views, faults, onChoice });
     this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
     const tiles = element("div", { id: "tiles" });
-    this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand));
-    root.append(this.choices, tiles, element("p", {}, texts.liveHelp));
+    this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand, () => this.#enlarge(name)));
+    this.layouts = new Layouts(tiles);
+    const help = element("details", {}, element("summary", {}, texts.help), element("p", {}, texts.liveHelp));
+    root.append(element("div", { className: "choices" }, this.choices, this.layouts.root, help), tiles);
     views.addEventListener("change", () => this.#describe());
     setInterval(() => this.#tick(), 250);
   }
@@ -33,6 +37,7 @@ export class Live {
       this.tiles.get(name);
     }
     this.#describe();
+    this.#arrange();
     this.onChoice();
   }
 
@@ -57,8 +62,22 @@ export class Live {
   #choose(name, isChosen) {
     this.#chosen.set(name, isChosen);
     this.tiles.get(name).root.hidden = !isChosen;
+    this.#arrange();
     this.onChoice();
   }
+
+  #enlarge(name) {
+    this.#large = name;
+    this.#arrange();
+  }
+
+  #arrange() {
+    const { views } = this;
+    this.layouts.fit(views.length);
+    const large = views.includes(this.#large) ? this.#large : views[0];
+    for (const name of views) this.tiles.get(name).root.classList.toggle("large", name === large);
+  }
+
   #tick() {
     for (const [name, is] of this.#chosen ?? []) if (is) this.tiles.get(name).tick(this.faults.ofView(name));
   }

@@ -3,6 +3,7 @@
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
 import { Freshness } from "../elements/freshness.js";
+import { icon, iconButton } from "../elements/icons.js";
 import { texts } from "../texts.js";
 import { Legend } from "./legend.js";
 import { Mixer } from "./mixer.js";
@@ -14,7 +15,8 @@ export class Tile {
   #hasPicture = false;
   #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
 
-  constructor(name, mayCommand) {
+  // `onEnlarge()`: it shall be the large one.
+  constructor(name, mayCommand, onEnlarge) {
     this.name = name;
     this.mayCommand = mayCommand;
     this.canvas = element("canvas", { tabIndex: 0, role: "application",
@@ -26,22 +28,42 @@ export class Tile {
     const said = element("p", { className: "wrong", role: "alert" });
     this.say = (what) => setText(said, what);
     this.pointed = new PointedView(this.canvas, mayCommand, this.say);
-    const full = element("button", { type: "button" }, texts.fullScreen);
-    full.addEventListener("click", () => this.root.requestFullscreen());
-    const snapshot = element("button", { type: "button" }, texts.snapshot);
-    snapshot.addEventListener("click", () => {
-      if (this.#hasPicture) saveSnapshot(name, this.canvas, this.legend?.shown ?? []);
-    });
-    const seen = element("div", { className: "picture" }, this.canvas, this.pointer.mark);
+    this.frame = element("div", { className: "frame" }, this.canvas, this.pointer.mark);
+    const seen = element("div", { className: "picture" }, this.frame,
+      element("div", { className: "over" }, this.pointer.reading, this.controls));
     this.freshness = new Freshness(seen);
-    this.root = element("figure", {}, seen,
-      this.pointer.reading, this.pointer.spoken, this.controls, said,
-      element("figcaption", {}, element("strong", {}, name), this.freshness.age, snapshot, full));
+    this.root = element("figure", {}, seen, this.pointer.spoken, said, element("figcaption", {},
+      element("strong", {}, name), this.freshness.age, ...this.#makeButtons(onEnlarge)));
+  }
+
+  #makeButtons(onEnlarge) {
+    const button = (name, act) => {
+      const made = iconButton(name, texts.tile[name](this.name));
+      made.classList.add(name);
+      made.addEventListener("click", act);
+      return made;
+    };
+    this.lock = button("locked", () => this.#turn(this.lock.ariaPressed !== "true"));
+    this.back = button("back", () => this.pointed.back());
+    this.#turn(false);
+    this.lock.hidden = this.back.hidden = true;
+    return [button("enlarge", onEnlarge), this.lock, this.back,
+      button("cameras", () => {
+        if (this.#hasPicture) saveSnapshot(this.name, this.canvas, this.legend?.shown ?? []);
+      }),
+      button("full", () => this.root.requestFullscreen())];
+  }
+
+  #turn(isTurned) {
+    this.lock.ariaPressed = String(isTurned);
+    this.lock.replaceChildren(icon(isTurned ? "unlocked" : "locked"));
+    this.pointed.lock(!isTurned);
   }
 
   // The view's entry and the colour maps of /api/v1/views.
   describe(view, maps) {
     this.pointed.describe(view);
+    this.lock.hidden = this.back.hidden = !this.pointed.mayTurn;
     this.legend = new Legend(view, maps, this.mayCommand, this.say);
     if (view.aim) this.legend.follow(view.aim.colours);
     this.controls.replaceChildren(this.legend.root);
@@ -56,6 +78,7 @@ export class Tile {
   #draw(picture, { head, received }) {
     if (this.canvas.width !== picture.width) this.canvas.width = picture.width;
     if (this.canvas.height !== picture.height) this.canvas.height = picture.height;
+    this.frame.style.setProperty("--aspect", picture.width / picture.height);
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = head.number;
     this.canvas.dataset.stamp = head.stamp;

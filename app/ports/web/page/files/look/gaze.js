@@ -29,6 +29,9 @@ export class Gaze {
     this.#home = { ...anglesOf(direction), fov: 90 };
     this.reset();
   }
+  get home() {
+    return this.#home;
+  }
   set home({ yaw, pitch, fov }) {
     this.#home = { yaw, pitch, fov };
   }
@@ -68,14 +71,15 @@ export function followGestures(canvas, gaze) {
   followKeys(canvas, gaze);
 }
 
-// Mouse, pen and fingers.
-export function followFingers(canvas, gaze) {
+// Mouse, pen and fingers. `isMeant(event)`: false leaves a pointer that goes down to the page.
+export function followFingers(canvas, gaze, isMeant = () => true) {
   const fingers = new Map(); // positions by pointer
   const spread = () => {
     const [a, b] = [...fingers.values()];
     return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
   };
   canvas.addEventListener("pointerdown", (event) => {
+    if (!isMeant(event)) return;
     canvas.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
   });

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layouts of the tiles: a number of equal ones that fill the screen, or a large one and several small ones. The choice
+// is kept by the browser.
+import { element } from "../elements/elements.js";
+import { iconButton } from "../elements/icons.js";
+import { texts } from "../texts.js";
+
+const kNumbers = [1, 2, 4, 6, 9];
+const kLarge = "large";
+const kKept = "layout"; // key in the browser's storage
+
+export class Layouts {
+  // `tiles`: the element around the tiles; its style follows the data `layout`.
+  constructor(tiles) {
+    this.tiles = tiles;
+    this.buttons = new Map([...kNumbers.map(String), kLarge].map((layout) => {
+      const button = iconButton(`layout-${layout}`, texts.layout(layout === kLarge ? 0 : Number(layout)));
+      button.addEventListener("click", () => {
+        localStorage.setItem(kKept, layout);
+        this.#apply(layout);
+      });
+      return [layout, button];
+    }));
+    this.root = element("div", { role: "group", className: "layouts", "aria-label": texts.layouts },
+      ...this.buttons.values());
+  }
+
+  // Without a choice of the user: the smallest that shows `count` views at once.
+  fit(count) {
+    const kept = localStorage.getItem(kKept);
+    this.#apply(this.buttons.has(kept) ? kept : String(kNumbers.find((number) => number >= count) ?? kNumbers.at(-1)));
+  }
+
+  #apply(layout) {
+    this.tiles.dataset.layout = layout;
+    for (const [name, button] of this.buttons) button.setAttribute("aria-pressed", name === layout);
+  }
+}
