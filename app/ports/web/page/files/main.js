@@ -5,6 +5,7 @@ import { Faults } from "./appliance/faults.js";
 import { Stream } from "./appliance/stream.js";
 import { Views } from "./appliance/views.js";
 import { element, setText } from "./elements/elements.js";
+import { languageChoice } from "./elements/language_choice.js";
 import { Live } from "./live/live.js";
 import { Look } from "./look/look.js";
 import { Notices } from "./notices.js";
@@ -13,7 +14,7 @@ import { Recipe } from "./process/recipe.js";
 import { admit, askAgain } from "./system/access.js";
 import { Fleet } from "./system/fleet.js";
 import { System } from "./system/system.js";
-import { texts } from "./texts.js";
+import { parsed, texts } from "./texts.js";
 
 const kRetryMs = 500;
 const kSilenceS = 2;
@@ -79,6 +80,8 @@ const tabs = [
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
 
+document.getElementById("account").after(languageChoice());
+document.getElementById("nav").ariaLabel = texts.navigation;
 const session = await admit(() => say(texts.connecting, true));
 // True: the user of the page may do what this role may.
 const isAtLeast = (role) => session.roles.includes(role);
@@ -95,7 +98,7 @@ for (const { name, make } of tabs) made.push(make(document.getElementById(name))
 const stream = new Stream(
   (message) => {
     if (message.head.kind === "view") return shown()?.picture(message);
-    const status = JSON.parse(new TextDecoder().decode(message.body));
+    const status = parsed(new TextDecoder().decode(message.body));
     showCondition(status);
     views.status();
     faults.status(status);

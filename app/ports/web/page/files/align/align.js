@@ -3,7 +3,7 @@
 import { command } from "../appliance/api.js";
 import { directionOf, turnBetween } from "../elements/directions.js";
 import { commandButton, element, setText } from "../elements/elements.js";
-import { texts } from "../texts.js";
+import { parsed, texts } from "../texts.js";
 import { BallEditor } from "./ball_editor.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";
@@ -160,7 +160,7 @@ export class Align {
   }
 
   async #look() {
-    this.#cameras = (await (await fetched("api/v1/alignment")).json()).cameras;
+    this.#cameras = parsed(await (await fetched("api/v1/alignment")).text()).cameras;
     for (const { name } of this.#cameras.slice(this.choice.options.length)) {
       this.choice.append(element("option", { value: name }, name));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Descriptions of the appliance's figures, and commands to it.
+import { translated } from "../texts.js";
 
 // A figure's description also ends with its unit. A code has its numbers by name.
 function described(figure) {
@@ -9,7 +10,8 @@ function described(figure) {
   const hasEnd = unit && description.endsWith(end);
   const codes = Object.fromEntries(
     (figure["x-enum-varnames"] ?? []).map((name, n) => [name, figure.enum[n]]));
-  return { title: figure.title ?? "", unit, description: hasEnd ? description.slice(0, -end.length) : description, codes };
+  return { title: translated(figure.title ?? ""), unit, codes,
+    description: hasEnd ? description.slice(0, -end.length) : description };
 }
 
 // Descriptions by kind of component ("system", "cameras"), then by name: {title, description, unit, codes}; only

@@ -3,6 +3,16 @@
 // recipes.
 const kDecimals = [[1000, 0], [10, 1], [1, 2], [0.1, 3]];  // least magnitude, decimals
 const kMostDecimals = 4;
+const forms = new Map();  // by decimals
+
+// In the page's language, which does not change while it is open.
+export function decimalText(value, decimals) {
+  if (!forms.has(decimals)) {
+    forms.set(decimals, new Intl.NumberFormat(document.documentElement.lang, {
+      minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false }));
+  }
+  return forms.get(decimals).format(value);
+}
 
 export function unitSymbol(unit) {
   return unit.replace("degC", "°C").replace("deg", "°").replace("mm2", "mm²").replace("/s/s", "/s²");
@@ -12,8 +22,7 @@ export function unitSymbol(unit) {
 function numberText(value) {
   if (Number.isInteger(value)) return String(value);
   const [, decimals] = kDecimals.find(([least]) => Math.abs(value) >= least) ?? [0, kMostDecimals];
-  const text = value.toFixed(decimals);
-  return Number(text) === 0 ? "0" : text;
+  return Number(value.toFixed(decimals)) === 0 ? "0" : decimalText(value, decimals);
 }
 
 // `words`: text of a code.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Axes of a chart and their ticks, at round values and at round local times.
+import { decimalText } from "./amounts.js";
 import { minuteText } from "./clock.js";
 
 const kTickPx = 30;      // least distance of two ticks of values
@@ -44,7 +45,7 @@ export class ValueAxis {
     const decimals = Math.max(0, -Math.floor(Math.log10(this.step) + 1e-9));
     return Array.from({ length: Math.round(this.span / this.step) + 1 }, (_, n) => {
       const value = this.low + n * this.step;
-      return { y: this.y(value), text: value.toFixed(decimals) };
+      return { y: this.y(value), text: decimalText(value, decimals) };
     });
   }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one clock of the page: local time of the browser, written as ISO 8601 does.
+// The one clock of the page: local time of the browser.
+import { kLanguages, language } from "../texts/language.js";
+
 const kDate = { year: "numeric", month: "2-digit", day: "2-digit" };
 const kTime = { hour: "2-digit", minute: "2-digit" };
 const kSeconds = { ...kTime, second: "2-digit" };
-const kForm = "sv-SE"; // locale with this form
+const kForm = kLanguages[language].dates;
 const moments = new Intl.DateTimeFormat(kForm, { ...kDate, ...kSeconds });
 const seconds = new Intl.DateTimeFormat(kForm, kSeconds);
 const minutes = new Intl.DateTimeFormat(kForm, kTime);

@@ -3,7 +3,7 @@
 import { amountText } from "../elements/amounts.js";
 import { momentText, timeZone } from "../elements/clock.js";
 import { element, table } from "../elements/elements.js";
-import { texts } from "../texts.js";
+import { parsed, texts } from "../texts.js";
 
 export class AlarmHistory {
   #count = null;  // number of all events at the last request
@@ -25,7 +25,7 @@ export class AlarmHistory {
     if (count === this.#count) return;
     this.#count = count;
     const answer = await fetch("api/v1/history/alarms").catch(() => null);
-    const read = answer?.ok ? await answer.json().catch(() => null) : null;
+    const read = answer?.ok ? await answer.text().then(parsed).catch(() => null) : null;
     if (read) this.#show(read.alarms.reverse());
     else this.#count = null;
   }

@@ -3,9 +3,13 @@
 import { post } from "../appliance/api.js";
 import { momentText } from "../elements/clock.js";
 import { element, setText } from "../elements/elements.js";
-import { texts } from "../texts.js";
+import { texts, translated } from "../texts.js";
 
 const kAgainMs = 1000;
+
+// The appliance writes an alarm as "name: level, state".
+const alarmText = (alarm) => alarm?.replace(/: ([a-z ]+), (.+)$/,
+  (_, level, state) => `: ${translated(level)}, ${translated(state)}`);
 
 // One appliance, updated in place.
 class Card {
@@ -32,9 +36,9 @@ class Card {
     setText(this.name, page ? "" : name);
     setText(this.self, appliance.is_self ? texts.fleet.self : "");
     const isGone = appliance.is_gone;
-    setText(this.state, isGone ? texts.fleet.gone(momentText(appliance.newest)) : condition);
+    setText(this.state, isGone ? texts.fleet.gone(momentText(appliance.newest)) : translated(condition));
     this.state.classList.toggle("wrong", isGone || severity !== 0);
-    setText(this.alarm, texts.fleet.alarms(appliance.alarms, appliance.alarm));
+    setText(this.alarm, texts.fleet.alarms(appliance.alarms, alarmText(appliance.alarm)));
     this.alarm.classList.toggle("wrong", !isGone && appliance.alarms > 0);
     setText(this.about, texts.fleet.about(version, prefix));
     this.#showPicture(appliance);
