@@ -3,6 +3,7 @@
 // is kept by the browser.
 import { element } from "../elements/elements.js";
 import { iconButton } from "../elements/icons.js";
+import { keep, kept } from "../elements/kept.js";
 import { texts } from "../texts.js";
 
 const kNumbers = [1, 2, 4, 6, 9];
@@ -10,13 +11,16 @@ const kLarge = "large";
 const kKept = "layout"; // key in the browser's storage
 
 export class Layouts {
+  #chosen = kept(kKept);
+
   // `tiles`: the element around the tiles; its style follows the data `layout`.
   constructor(tiles) {
     this.tiles = tiles;
     this.buttons = new Map([...kNumbers.map(String), kLarge].map((layout) => {
       const button = iconButton(`layout-${layout}`, texts.layout(layout === kLarge ? 0 : Number(layout)));
       button.addEventListener("click", () => {
-        localStorage.setItem(kKept, layout);
+        this.#chosen = layout;
+        keep(kKept, layout);
         this.#apply(layout);
       });
       return [layout, button];
@@ -27,8 +31,8 @@ export class Layouts {
 
   // Without a choice of the user: the smallest that shows `count` views at once.
   fit(count) {
-    const kept = localStorage.getItem(kKept);
-    this.#apply(this.buttons.has(kept) ? kept : String(kNumbers.find((number) => number >= count) ?? kNumbers.at(-1)));
+    const fitting = String(kNumbers.find((number) => number >= count) ?? kNumbers.at(-1));
+    this.#apply(this.buttons.has(this.#chosen) ? this.#chosen : fitting);
   }
 
   #apply(layout) {

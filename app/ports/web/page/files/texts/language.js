@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Language of the page: the one chosen on it in this browser, else the browser's first one that the page has.
+import { keep, kept } from "../elements/kept.js";
 
 // `file`: its texts; none if they are in the bundle. `dates`: locale of dates; that of Sweden writes them as ISO 8601
 // does.
@@ -10,21 +11,12 @@ export const kLanguages = {
 };
 const kKept = "language";
 
-// Null: none, or the browser keeps nothing.
-function chosen() {
-  try {
-    return localStorage.getItem(kKept);
-  } catch {
-    return null;
-  }
-}
-
-export const language = [chosen(), ...navigator.languages.map((tag) => tag.slice(0, 2)), "en"]
+export const language = [kept(kKept), ...navigator.languages.map((tag) => tag.slice(0, 2)), "en"]
   .find((one) => Object.hasOwn(kLanguages, one));
 document.documentElement.lang = language;
 
 // Loads the page again.
 export function chooseLanguage(name) {
-  localStorage.setItem(kKept, name);
+  keep(kKept, name);
   location.reload();
 }
