@@ -11,13 +11,15 @@ namespace orbwatch::app::web {
 
 std::vector<Route> page_routes() {
   std::vector<Route> routes;
-  routes.reserve(kPageFiles.size());
   for (const PageFile& file : kPageFiles) {
     Route route{"GET", "/", Role::Nobody, "Of the page", std::string(page_type(file.name))};
     if (file.name != "index.html") route.path += file.name;
     route.is_page = true;
     route.serve = [content = FixedContent(route.type, file.content, file.packed)](
                       const ExchangePtr& exchange) { content.answer(exchange); };
+    routes.push_back(route);
+    if (file.name != "index.html") continue;
+    route.path = "/operator";  // the same, which the page reads in its address
     routes.push_back(std::move(route));
   }
   return routes;

@@ -9,6 +9,7 @@ import { languageChoice } from "./elements/language_choice.js";
 import { Live } from "./live/live.js";
 import { Look } from "./look/look.js";
 import { Notices } from "./notices.js";
+import { Operator } from "./process/operator.js";
 import { Process } from "./process/process.js";
 import { Recipe } from "./process/recipe.js";
 import { admit, askAgain } from "./system/access.js";
@@ -70,7 +71,7 @@ function showCondition(status) {
 
 // Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost(),
 // views, and isChanged: it has changes that are not sent.
-const tabs = [
+const kTabs = [
   { name: "live", make: (section) => new Live(section, views, faults, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
   { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
@@ -79,6 +80,11 @@ const tabs = [
   { name: "system", make: (section) => new System(section, views, figures, session) },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
+// The only one at the address /operator.
+const kOperator = { name: "operator", make: (section) => new Operator(section, faults, recipe, figures, choose) };
+const isOperator = location.pathname.endsWith("/operator");
+const tabs = isOperator ? [kOperator] : kTabs;
+document.body.classList.toggle("operator", isOperator);
 
 document.getElementById("account").after(languageChoice());
 document.getElementById("nav").ariaLabel = texts.navigation;

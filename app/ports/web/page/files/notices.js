@@ -76,6 +76,7 @@ export class Notices {
   #entitle() {
     const [shown] = [...this.links].find(([, link]) => link.ariaCurrent === "page") ?? ["live"];
     document.title = texts.notices.title(texts.pages[shown], this.#count);
-    setText(this.links.get("process"), texts.notices.badge(texts.pages.process, this.#count));
+    const link = this.links.get("process"); // none on the screen of the panel
+    if (link) setText(link, texts.notices.badge(texts.pages.process, this.#count));
   }
 }

@@ -89,6 +89,7 @@ TEST_F(Served, FilesOfThePageAreSentAgainOnlyWhenTheyHaveChanged) {
 TEST_F(Served, HtmlAndIconAreServedAsTheyWereWritten) {
   start();
   EXPECT_EQ(get(port(), "/").body, read(kFolder / "index.html"));
+  EXPECT_EQ(get(port(), "/operator").body, read(kFolder / "index.html"));
   EXPECT_EQ(get(port(), "/icon.svg").body, read(kFolder / "icon.svg"));
 }
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process at one glance: the view with its regions, key figures, alarms, charts; then changes of the recipe and
-// the events of alarms.
+// The process at one glance with its charts; then changes of the recipe and the events of alarms.
 import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { Trial } from "../system/trial.js";
 import { texts } from "../texts.js";
 import { AlarmHistory } from "./alarm_history.js";
-import { Alarms, worstOf } from "./alarms.js";
-import { KeyFigures } from "./key_figures.js";
-import { RegionEditor } from "./region_editor.js";
+import { Glance } from "./glance.js";
 import { RegionSignals } from "./region_signals.js";
 
 export class Process {
@@ -18,15 +15,12 @@ export class Process {
     const descriptions = figures.regions ?? {};
     this.none = element("p", {}, texts.noRegions);
     const charts = element("div", { id: "charts" });
-    this.editor = new RegionEditor(this.recipe, faults, mayChange, onChoice);
-    this.alarms = new Alarms(descriptions);
     this.happened = new AlarmHistory();
     this.regions = new Keyed(charts, (name) =>
       new RegionSignals(name, descriptions, this.recipe, mayChange));
-    this.keys = new KeyFigures(descriptions, (region, signal) => this.regions.get(region).choose(signal));
-    root.append(element("div", { className: "glance" }, this.editor.root,
-      element("div", {}, this.keys.root, this.alarms.root)), this.none, charts,
-      ...(mayChange ? [this.#makeTrial()] : []), this.happened.root);
+    this.glance = new Glance(faults, this.recipe, descriptions, mayChange, onChoice,
+      (region, signal) => this.regions.get(region).choose(signal));
+    root.append(this.glance.root, this.none, charts, ...(mayChange ? [this.#makeTrial()] : []), this.happened.root);
   }
 
   #makeTrial() {
@@ -45,19 +39,16 @@ export class Process {
     return !this.root.hidden;
   }
   get views() {
-    return this.editor.views;
+    return this.glance.views;
   }
   picture(message) {
-    this.editor.picture(message);
+    this.glance.picture(message);
   }
 
   status(status, now) {
-    const { alarms = [], regions = [] } = status;
-    this.alarms.show(alarms);
+    const { regions = [] } = status;
+    this.glance.status(status, now);
     if (this.isShown) this.happened.refresh(status.web.alarm_events);
-    this.keys.show(regions, alarms, now);
-    this.editor.mark(regions.map(({ name }, index) =>
-      [name, worstOf(alarms.filter(({ region }) => region === index))]));
     this.regions.keep(regions.map(({ name }) => name));
     for (const region of regions) this.regions.get(region.name).show(region, now);
     this.none.hidden = this.regions.size > 0;

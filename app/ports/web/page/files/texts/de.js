@@ -4,7 +4,7 @@ const fixed = (value, decimals) => value.toFixed(decimals).replace(".", ",");
 
 export const texts = {
   pages: { live: "Live", look: "Umsehen", align: "Ausrichten", process: "Prozess", system: "System",
-    fleet: "Geräte" },
+    fleet: "Geräte", operator: "Bediener" },
   navigation: "Seiten",
   language: "Sprache",
   user: "Benutzer",
@@ -74,6 +74,7 @@ export const texts = {
   layouts: "Anordnung",
   layout: (count) => (count === 0 ? "Eine große und mehrere kleine"
     : count === 1 ? "Eine Ansicht" : `${count} Ansichten`),
+  fullScreen: "Ganzer Bildschirm",
   help: "Hilfe",
   pictureOf: (name) => `Bild der Ansicht ${name}: Pfeiltasten bewegen ein Fadenkreuz`,
   liveHelp: "Zeigen Sie auf ein Bild, oder tippen Sie es an, um seine Werte dort zu lesen; Pfeiltasten bewegen ein " +

@@ -2,7 +2,7 @@
 // All texts of the page itself, in English.
 export const texts = {
   pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System",
-    fleet: "Appliances" },
+    fleet: "Appliances", operator: "Operator" },
   navigation: "Pages",
   language: "Language",
   user: "User",
@@ -70,6 +70,7 @@ export const texts = {
   },
   layouts: "Layout",
   layout: (count) => (count === 0 ? "One large and several small" : count === 1 ? "One view" : `${count} views`),
+  fullScreen: "Full screen",
   help: "Help",
   pictureOf: (name) => `Picture of view ${name}: arrow keys move a crosshair`,
   liveHelp: "Point at a picture, or tap it, to read its values there; arrow keys move a crosshair, with " +

@@ -2,7 +2,7 @@
 // Texts of the page in Japanese: members and arguments are those of en.js.
 export const texts = {
   pages: { live: "ライブ", look: "見回す", align: "位置合わせ", process: "プロセス", system: "システム",
-    fleet: "装置一覧" },
+    fleet: "装置一覧", operator: "オペレーター" },
   navigation: "ページ",
   language: "言語",
   user: "ユーザー",
@@ -70,6 +70,7 @@ export const texts = {
   },
   layouts: "配置",
   layout: (count) => (count === 0 ? "大 1 と小" : count === 1 ? "1 画面" : `${count} 画面`),
+  fullScreen: "全画面",
   help: "ヘルプ",
   pictureOf: (name) => `ビュー ${name} の画像: 矢印キーで十字線が動きます`,
   liveHelp: "画像を指すかタップすると、その位置の値が表示されます。矢印キーは十字線を動かし、Ctrl と併用で 1 画素ずつ、" +
