@@ -159,6 +159,30 @@ class RecipeOnThePage(PageCase):
         changes = list(difflib.ndiff(*lines))
         return [[line[2:] for line in changes if line[0] == sign] for sign in "-+"]
 
+    def test_a_signal_without_an_alarm_gets_limits(self):
+        checksum, before = self.appliance.checksum(), self.recipe()["alarms"]
+        Select(self.find("[data-region=surroundings] [name=signal]")).select_by_value("spatter_rate")
+        self.find("[data-region=surroundings]").find_element(By.XPATH, ".//button[text()='+ limit']").click()
+        for name, value in (("high_warning", "500"), ("high_alarm", "900")):
+            self.find(f"[data-region=surroundings] .limits [name={name}]").send_keys(value, Keys.TAB)
+        eventually("its line", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-region=surroundings] [data-limit='0 high_warning'][aria-valuenow='500']"))
+        self.browser.keep_picture("new-limit")
+        self.press("Check and show the difference")
+        eventually("the difference", lambda: '+signal = "spatter_rate"' in self.browser.text("#recipe pre"))
+        self.press("Try out")
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != checksum and self.appliance.configuration()["trial"]))
+        *others, added = self.recipe()["alarms"]
+        self.assertEqual(others, before)
+        self.assertLessEqual({"region": "surroundings", "signal": "spatter_rate", "high_warning": 500,
+                              "high_alarm": 900, "low_warning": None}.items(), added.items())
+        eventually("its key figure", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-key='surroundings spatter_rate']"))
+        self.press("Revert now")
+        eventually("the old recipe runs", lambda: self.appliance.says(lambda: self.appliance.checksum() == checksum))
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
+
     def test_limits_and_regions_are_kept_in_the_recipe(self):
         checksum, pool = self.appliance.checksum(), self.region("pool")
         limit = self.drag_a_limit()

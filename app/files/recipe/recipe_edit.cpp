@@ -2,6 +2,7 @@
 #include "app/files/recipe/recipe_edit.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,7 @@ class RecipeEdit {
       : edit_(std::move(edit)), recipe_(std::move(recipe)) {}
 
   Result<> change(const LimitChange& change);
+  Result<> add_alarms(const std::vector<LimitChange>& limits);
   Result<> change(const RegionChange& change);
 
   Result<std::string> finish() const { return edit_.finish(); }
@@ -54,12 +56,41 @@ class RecipeEdit {
   pipeline::Recipe recipe_;
 };
 
-Result<> RecipeEdit::change(const LimitChange& change) {
+Result<> check_limit(const LimitChange& change) {
   const bool is_limit =
       change.limit == signals::kHysteresis ||
       std::ranges::count(signals::kLimits, std::string_view(change.limit),
                          [](const auto& limit) { return std::string_view(limit.name); }) > 0;
   if (!is_limit) return fail("an alarm has no limit \"" + change.limit + "\"");
+  return {};
+}
+
+/// Adds the alarms whose number is 0, one for each region and signal.
+Result<> RecipeEdit::add_alarms(const std::vector<LimitChange>& limits) {
+  std::map<std::size_t, std::map<std::string, std::string>> lines;  // by region and signal
+  for (const LimitChange& limit : limits) {
+    if (limit.alarm != 0) continue;
+    const auto found =
+        std::ranges::find(recipe_.regions, limit.region, &pipeline::RegionOfInterest::name);
+    if (found == recipe_.regions.end()) return fail("there is no region " + limit.region);
+    if (!limit.value) return fail("a new alarm must have a value of " + limit.limit);
+    const auto region = static_cast<std::size_t>(found - recipe_.regions.begin());
+    std::string& alarm = lines[region][limit.signal];
+    if (alarm.empty()) alarm = toml_line("signal", toml_string(limit.signal));
+    alarm += toml_line(limit.limit, toml_number(*limit.value));
+  }
+  for (const auto& [region, alarms] : lines) {
+    const toml::array* present = region_at(region)["alarm"].as_array();
+    std::vector<std::string> added;
+    for (const auto& [signal, alarm] : alarms) {
+      present ? edit_.add_element(*present, "region.alarm", alarm) : added.push_back(alarm);
+    }
+    if (!present) edit_.add_list(region_at(region), "region.alarm", added);
+  }
+  return {};
+}
+
+Result<> RecipeEdit::change(const LimitChange& change) {
   std::size_t before = 0;
   for (std::size_t i = 0; i < recipe_.regions.size(); ++i) {
     const pipeline::RegionOfInterest& region = recipe_.regions[i];
@@ -148,8 +179,11 @@ void RecipeEdit::add(const RegionChange& change) {
 
 Result<> apply(RecipeEdit& edit, const RecipeChange& change) {
   for (const LimitChange& limit : change.limits) {
+    if (auto done = check_limit(limit); !done) return done;
+    if (limit.alarm == 0) continue;
     if (auto done = edit.change(limit); !done) return done;
   }
+  if (auto done = edit.add_alarms(change.limits); !done) return done;
   for (const RegionChange& region : change.regions) {
     if (auto done = edit.change(region); !done) return done;
   }
@@ -159,8 +193,10 @@ Result<> apply(RecipeEdit& edit, const RecipeChange& change) {
 Result<> check_once(const RecipeChange& change) {
   std::set<std::string> seen;
   for (const LimitChange& limit : change.limits) {
-    if (!seen.insert(std::to_string(limit.alarm) + " " + limit.limit).second) {
-      return fail("alarm " + std::to_string(limit.alarm) + ": " + limit.limit + " is there twice");
+    const std::string alarm = limit.alarm > 0 ? "alarm " + std::to_string(limit.alarm)
+                                              : "new alarm of " + limit.region + " " + limit.signal;
+    if (!seen.insert(alarm + " " + limit.limit).second) {
+      return fail(alarm + ": " + limit.limit + " is there twice");
     }
   }
   seen.clear();

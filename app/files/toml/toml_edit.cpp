@@ -153,6 +153,17 @@ void TomlEdit::add_element(const toml::array& list, const std::string& header,
   add_header(last ? end_of(*last) : text_.size(), "[[" + header + "]]", lines);
 }
 
+void TomlEdit::add_list(const toml::table& parent, const std::string& header,
+                        const std::vector<std::string>& elements) {
+  const std::string key = "[[" + header.substr(header.rfind('.') + 1) + "]]\n";
+  std::string list;
+  for (const std::string& lines : elements) {
+    list += key + lines;
+    add_header(end_of(parent), "[[" + header + "]]", lines);
+  }
+  additions_.emplace(&parent, list);
+}
+
 void TomlEdit::add_header(std::size_t at, const std::string& header, const std::string& lines) {
   const auto level = static_cast<int>(std::ranges::count(header, '.'));
   add_change(at, at, "\n" + header + "\n" + lines, level);

@@ -53,6 +53,11 @@ class TomlEdit {
   /// Adds the table `[[header]]` after the last one of `list`, which is not empty.
   void add_element(const toml::array& list, const std::string& header, const std::string& lines);
 
+  /// Adds a list of tables, such as `[[region.alarm]]`, after `parent`, which has none, and its
+  /// nested tables; `elements` are the values of each, see toml_line().
+  void add_list(const toml::table& parent, const std::string& header,
+                const std::vector<std::string>& elements);
+
   /// The changed text. It was read back as a whole: every changed key has its new value, every
   /// removed one is absent, and all others are as before. Error: this is not so, because the
   /// notation of the text does not permit the change; a new value that is not valid TOML.

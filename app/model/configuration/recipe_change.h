@@ -9,9 +9,9 @@
 
 namespace orbwatch::app {
 
-/// One limit of an alarm.
+/// One limit of an alarm. Limits of a region's signal without an alarm are those of one new alarm.
 struct LimitChange {
-  std::size_t alarm = 0;          ///< from 1, in the order of the recipe's file
+  std::size_t alarm = 0;          ///< from 1, in the order of the recipe's file; 0: a new one
   std::string region;             ///< the alarm's region, to detect a stale request
   std::string signal;             ///< the alarm's signal, to detect a stale request
   std::string limit;              ///< a name of signals::kLimits, or signals::kHysteresis

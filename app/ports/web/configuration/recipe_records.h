@@ -13,7 +13,8 @@ namespace orbwatch::app {
 
 template <class Visitor>
 void visit(Visitor& v, LimitChange& change) {
-  v.required("alarm", change.alarm, Range::between(1, signals::kMaxAlarms), "Number of the alarm");
+  v.required("alarm", change.alarm, Range::between(0, signals::kMaxAlarms),
+             "Number of the alarm; 0: a new one, which gets all limits of this region and signal");
   v.required("region", change.region, "The alarm's region");
   v.required("signal", change.signal, "The alarm's signal");
   v.required("limit", change.limit,

@@ -170,8 +170,6 @@ TEST(RecipeEdit, AppliesAllChangesOrNone) {
 }
 
 TEST(RecipeEdit, RefusesWhatIsNotThereOrIsAnother) {
-  EXPECT_THAT(refusal({{{0, "pool", "hot_spot_width", "low_alarm", 1.0}}}),
-              HasSubstr("there is no alarm 0"));
   EXPECT_THAT(refusal({{{3, "pool", "hot_spot_width", "low_alarm", 1.0}}}),
               HasSubstr("there is no alarm 3 of 2"));
   EXPECT_THAT(refusal({{{2, "pool", "hot_spot_width", "low_alarm", 1.0}}}),
@@ -242,6 +240,44 @@ std::pair<std::string, std::string> the_other_line(const std::string& before,
   EXPECT_EQ(others, 1U);
   EXPECT_EQ(new_lines.peek(), EOF);
   return other;
+}
+
+TEST(RecipeEdit, AddsAlarmsToASignalWithoutOne) {
+  const auto made = changed({{
+      {0, "pool", "spatter_rate", "high_warning", 30},
+      {0, "pool", "spatter_rate", "hysteresis", 2.5},
+      {0, "surroundings", "spatter_rate", "high_alarm", 90},
+      {0, "surroundings", "hot_spot_area", "low_warning", 5},
+  }});
+  ASSERT_TRUE(made) << made.error().message;
+  const std::string for_pool =
+      "high_alarm = 2_400\n\n[[region.alarm]]\nsignal = \"spatter_rate\"\nhigh_warning = 30\n"
+      "hysteresis = 2.5\n";
+  const std::string for_surroundings =
+      "hot_spot_threshold = 1400\n\n[[region.alarm]]\nsignal = \"hot_spot_area\"\nlow_warning = 5\n"
+      "\n[[region.alarm]]\nsignal = \"spatter_rate\"\nhigh_alarm = 90\n\n# what the cameras get";
+  EXPECT_EQ(*made, recipe_with("high_alarm = 2_400\n", for_pool,
+                               recipe_with("hot_spot_threshold = 1400\n\n# what the cameras get",
+                                           for_surroundings)));
+  const auto recipe = recipe_of(*made);
+  ASSERT_EQ(recipe.regions[0].alarms.size(), 3U);
+  EXPECT_EQ(recipe.regions[0].alarms[2].high_warning, 30);
+  EXPECT_EQ(recipe.regions[0].alarms[2].hysteresis, 2.5);
+  ASSERT_EQ(recipe.regions[1].alarms.size(), 2U);
+  EXPECT_EQ(recipe.regions[1].alarms[1].high_alarm, 90);
+}
+
+TEST(RecipeEdit, RefusesANewAlarmThatIsNotPossible) {
+  const auto refused = [](const LimitChange& limit) { return refusal({{limit}}); };
+  EXPECT_THAT(refused({0, "seam", "spatter_rate", "high_warning", 30}),
+              HasSubstr("there is no region seam"));
+  EXPECT_THAT(refused({0, "pool", "spatter_rate", "high_warning", std::nullopt}),
+              HasSubstr("a new alarm must have a value of high_warning"));
+  EXPECT_THAT(refused({0, "pool", "no_signal", "high_warning", 30}), HasSubstr("no_signal"));
+  EXPECT_THAT(refused({0, "pool", "spatter_rate", "median", 30}), HasSubstr("no limit \"median\""));
+  EXPECT_THAT(refusal({{{0, "pool", "spatter_rate", "high_warning", 30},
+                        {0, "pool", "spatter_rate", "high_warning", 31}}}),
+              HasSubstr("new alarm of pool spatter_rate: high_warning is there twice"));
 }
 
 /// Sets each limit of the shipped recipe to a random value.

@@ -66,9 +66,10 @@ TEST(RecipeRecords, RefuseAnotherBody) {
 TEST(RecipeRecords, RefuseAMalformedLimit) {
   const std::string rest = R"("region": "", "signal": "", "limit": "a"})";
   EXPECT_EQ(refusal_of("limits", R"({"alarm": 1, "value": null, )" + rest), "accepted");
+  EXPECT_EQ(refusal_of("limits", R"({"alarm": 0, "value": 1, )" + rest), "accepted");
   for (const std::string& limit :
        {std::string("1"), std::string("{}"), R"({"alarm": 1, "value": "1", )" + rest,
-        R"({"alarm": -1, "value": 1, )" + rest, R"({"alarm": 0, "value": 1, )" + rest,
+        R"({"alarm": -1, "value": 1, )" + rest, R"({"alarm": 0.5, "value": 1, )" + rest,
         R"({"alarm": 1e300, "value": 1, )" + rest, R"({"alarm": true, "value": 1, )" + rest,
         R"({"alarm": 1, )" + rest, R"({"x": 1, "alarm": 1, "value": 1, )" + rest}) {
     EXPECT_THAT(refusal_of("limits", limit), StartsWith("limits[0]")) << limit;

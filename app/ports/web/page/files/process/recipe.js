@@ -2,6 +2,7 @@
 // The selected recipe, and its unsent changes.
 import { texts } from "../texts.js";
 
+const kNoLimits = { low_alarm: null, low_warning: null, high_warning: null, high_alarm: null, hysteresis: null };
 const kNothing = { number: 0, views: [], regions: [], alarms: [] };
 
 async function answered(path) {
@@ -15,6 +16,7 @@ export class Recipe extends EventTarget {
   #loaded = "";  // number of the loaded recipe
   #isLoading = false;
   #limits = new Map();  // unsent limits by alarm and limit
+  #added = [];          // unsent alarms, with the number 0
   #regions = new Map(); // regions by name
   #removed = new Set(); // names of removed regions
   stated = kNothing;
@@ -38,17 +40,27 @@ export class Recipe extends EventTarget {
     this.dispatchEvent(new Event("change"));
   }
 
+  // Adds an alarm, which is sent once it has a limit.
+  addAlarm(region, signal, unit) {
+    this.#added.push({ alarm: 0, region, signal, unit, ...kNoLimits });
+    this.#changed();
+  }
+
   alarmsOf(region, signal) {
-    return this.stated.alarms.filter((alarm) => alarm.region === region && alarm.signal === signal);
+    return [...this.stated.alarms, ...this.#added].filter((alarm) => alarm.region === region && alarm.signal === signal);
   }
 
   // Null: there is none.
   limit(alarm, name) {
-    return (this.#limits.get(`${alarm.alarm} ${name}`) ?? { value: alarm[name] }).value;
+    return (this.#limits.get(this.#keyOf(alarm, name)) ?? { value: alarm[name] }).value;
+  }
+
+  #keyOf({ alarm, region, signal }, limit) {
+    return [alarm, region, signal, limit].join(" ");
   }
 
   setLimit(stated, limit, value) {
-    const { alarm, region, signal } = stated, key = `${alarm} ${limit}`;
+    const { alarm, region, signal } = stated, key = this.#keyOf(stated, limit);
     if (value === stated[limit]) this.#limits.delete(key);
     else this.#limits.set(key, { alarm, region, signal, limit, value });
     this.#changed();
@@ -81,6 +93,7 @@ export class Recipe extends EventTarget {
     if (this.stated.regions.some((region) => region.name === name)) this.#removed.add(name);
     this.#regions.delete(name);
     for (const [key, { region }] of this.#limits) if (region === name) this.#limits.delete(key);
+    this.#added = this.#added.filter(({ region }) => region !== name);
     this.#changed();
   }
 
@@ -102,6 +115,7 @@ export class Recipe extends EventTarget {
 
   forget() {
     this.#limits.clear();
+    this.#added = [];
     this.#regions.clear();
     this.#removed.clear();
     this.#changed();

@@ -17,7 +17,7 @@ export class RegionSignals {
 
   // `descriptions` of the signals; `mayChange`: the user may change limits.
   constructor(name, descriptions, recipe, mayChange) {
-    Object.assign(this, { name, descriptions });
+    Object.assign(this, { name, descriptions, recipe, mayChange });
     this.table = new FigureTable(descriptions);
     this.table.root.setAttribute("aria-label", texts.region(name));
     this.choice = element("select", { name: "signal", "aria-label": texts.chartOf });
@@ -27,11 +27,13 @@ export class RegionSignals {
     this.limits = new LimitLines(recipe, mayChange);
     recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
     this.chart = new Chart(texts.region(name), this.limits.svg);
+    this.add = element("button", { type: "button", hidden: true }, texts.process.addLimit);
+    this.add.addEventListener("click", () => this.#addLimit());
     this.typed = element("details", {}, element("summary", {}, texts.process.typed), this.limits.fields);
     this.all = element("details", { className: "all" }, element("summary", {}, texts.process.allSignals),
       this.table.root);
     this.root = element("div", { "data-region": name }, element("div", { className: "head" },
-      element("h3", {}, texts.region(name)), this.choice, this.other),
+      element("h3", {}, texts.region(name)), this.choice, this.other, this.add),
       this.chart.root, this.typed, this.all);
   }
 
@@ -51,6 +53,15 @@ export class RegionSignals {
       [figure, this.#histories.get(figure) ?? new History({ region: this.name, figure })]));
     this.limits.choose(this.name, this.choice.value);
     this.typed.hidden = this.limits.fields.children.length === 0;
+    this.add.hidden = !this.typed.hidden || !this.mayChange || !this.choice.value;
+  }
+
+  // The signal gets an alarm of its own, whose limits are typed.
+  #addLimit() {
+    const signal = this.choice.value;
+    this.recipe.addAlarm(this.name, signal, this.descriptions[signal]?.unit ?? "");
+    this.typed.open = true;
+    this.limits.fields.querySelector("input").focus();
   }
 
   show(region, now) {

@@ -339,8 +339,10 @@ export const texts = {
     compared: "Verglichen mit",
     compare: "vergleichen mit…",
     limits: "Grenzwerte im Diagramm",
-    limitsOf: (alarm, unit) => `Grenzwerte des Alarms ${alarm}${unit ? `, ${unit}` : ""}`,
-    limitOf: (limit, alarm) => `${limit} des Alarms ${alarm}`,
+    addLimit: "+ Grenzwert",
+    limitsOf: (alarm, unit) => `Grenzwerte ${alarm === 0 ? "eines neuen Alarms" : `des Alarms ${alarm}`}${
+      unit ? `, ${unit}` : ""}`,
+    limitOf: (limit, alarm) => `${limit} ${alarm === 0 ? "eines neuen Alarms" : `des Alarms ${alarm}`}`,
     low_alarm: "Unterer Alarm",
     low_warning: "Untere Warnung",
     high_warning: "Obere Warnung",
