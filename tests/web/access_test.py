@@ -214,6 +214,8 @@ class Access(PageCase):
         self.submit(form, old=NEXT_PASSWORD, password=OWN_PASSWORD, again=OWN_PASSWORD)
         said("Changed")
         self.browser.keep_picture("own-password")
+        self.assertEqual([one.get_property("value") for one in form.find_elements(By.TAG_NAME, "input")],
+                         ["admin", "", "", ""])
         self.assertEqual(self.status_of("api/v1/status", elsewhere), 401)
         self.assertEqual(self.session()["user"], "admin")
         self.assertIsNone(self.log_in_elsewhere(NEXT_PASSWORD))

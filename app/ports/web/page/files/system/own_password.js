@@ -10,7 +10,7 @@ export class OwnPassword {
   constructor({ user, role, password_characters: characters }) {
     this.said = element("p", { role: "status" });
     // Password managers store the password for the name in the same form.
-    const name = field(texts.user, { value: user, readOnly: true, autocomplete: "username" });
+    const name = field(texts.user, { defaultValue: user, readOnly: true, autocomplete: "username" });
     this.form = element("form", {}, name,
       field(texts.presentPassword, { name: "old", type: "password", autocomplete: "current-password" }),
       ...newPasswordFields(characters), element("button", {}, texts.changePassword));

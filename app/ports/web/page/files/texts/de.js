@@ -25,7 +25,7 @@ export const texts = {
   ownPassword: "Eigenes Kennwort",
   presentPassword: "Bisheriges Kennwort",
   changePassword: "Kennwort ändern",
-  passwordChanged: "Geändert. Ihre Sitzungen auf anderen Rechnern sind beendet.",
+  passwordChanged: "Geändert. Ihre anderen Sitzungen sind beendet.",
   people: "Benutzer",
   programs: "Programme mit Token",
   audit: "Nachweis, das Neueste zuerst",

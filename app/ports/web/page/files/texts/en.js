@@ -23,7 +23,7 @@ export const texts = {
   ownPassword: "Own password",
   presentPassword: "Present password",
   changePassword: "Change the password",
-  passwordChanged: "Changed. Your sessions on other computers have ended.",
+  passwordChanged: "Changed. Your other sessions have ended.",
   people: "Users",
   programs: "Programs with a token",
   audit: "Audit, the newest first",

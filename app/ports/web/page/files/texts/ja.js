@@ -23,7 +23,7 @@ export const texts = {
   ownPassword: "自分のパスワード",
   presentPassword: "現在のパスワード",
   changePassword: "パスワードを変更",
-  passwordChanged: "変更しました。ほかのコンピューターでのセッションは終了しました。",
+  passwordChanged: "変更しました。ほかのセッションは終了しました。",
   people: "ユーザー",
   programs: "トークンを持つプログラム",
   audit: "監査記録（新しい順）",
