@@ -108,6 +108,24 @@ void ColourMap::apply(const ImageView<const std::uint16_t>& values,
   }
 }
 
+void ColourMap::apply(const ImageView<const std::uint8_t>& values, PlanarTile& out,
+                      const Kernel& kernel, PixelFormat order) const {
+  assert(values.width == kRun && values.height == kTile);
+  const ColourTable& table = ColourMap::table(of_bytes_, 3, order);
+  if (values.stride == kRun) return kernel.look_up_planes(table, values.data, out);
+  Indices indices;
+  for (int y = 0; y < kTile; ++y) std::copy_n(values.row(y), kRun, &indices.entries[kRun * y]);
+  kernel.look_up_planes(table, indices.entries.data(), out);
+}
+
+void ColourMap::apply(const ImageView<const std::uint16_t>& values, PlanarTile& out,
+                      const Kernel& kernel, PixelFormat order) const {
+  assert(values.width == kRun && values.height == kTile);
+  Indices indices;
+  find(values, indices, kernel);
+  kernel.look_up_planes(ColourMap::table(entries_, 3, order), indices.entries.data(), out);
+}
+
 void ColourMap::apply(const ImageView<const std::uint8_t>& values, const Yuv420Planes& out,
                       const Kernel& kernel) const {
   if (values.width == kRun && values.height == kTile) {

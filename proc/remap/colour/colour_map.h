@@ -7,6 +7,7 @@
 #include "proc/image/image_view.h"
 #include "proc/image/pixel_format.h"
 #include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/planar_tile.h"
 #include "proc/remap/colour/yuv420_tile.h"
 #include "proc/remap/grid/coordinate.h"
 #include "proc/remap/kernel/kernel.h"
@@ -28,6 +29,12 @@ class ColourMap {
              const Kernel& kernel, PixelFormat order = PixelFormat::Rgb) const;
   void apply(const ImageView<const std::uint16_t>& values, const ImageView<std::uint8_t>& out,
              const Kernel& kernel, PixelFormat order = PixelFormat::Rgb) const;
+
+  /// The same for a whole tile in planes, by a kernel that has look_up_planes.
+  void apply(const ImageView<const std::uint8_t>& values, PlanarTile& out, const Kernel& kernel,
+             PixelFormat order) const;
+  void apply(const ImageView<const std::uint16_t>& values, PlanarTile& out, const Kernel& kernel,
+             PixelFormat order) const;
 
   /// The same in I420 of kJfif, for a whole tile; where `values` are less, the rest of `out` has no
   /// meaning. Each colour's Y, U and V are rounded before the mean chroma of two by two pixels is.

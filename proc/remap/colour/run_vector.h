@@ -7,6 +7,10 @@
 
 #include "proc/remap/colour/run.h"
 
+#ifdef __aarch64__
+#include <arm_neon.h>
+#endif
+
 /// A run of pixels as vectors, which compilers spread over the available registers: for loops that
 /// compilers do not vectorize by themselves.
 namespace orbwatch::remap {
@@ -77,11 +81,24 @@ template <int Channels>
   }
 }
 
+#ifdef __aarch64__
+/// Divides each, up to 255 * 255, by 255 and rounds to nearest: instructions round sums and shifts.
+[[gnu::always_inline]] inline Bytes rounded_255th(uint16x8_t low, uint16x8_t high) {
+  const auto divided = vraddhn_u16(low, vrshrq_n_u16(low, 8));
+  return reinterpret_cast<Bytes>(vraddhn_high_u16(divided, high, vrshrq_n_u16(high, 8)));
+}
+[[gnu::always_inline]] inline Bytes rounded_255th(const Words& words) {
+  std::array<uint16x8_t, 2> halves;
+  std::memcpy(halves.data(), &words, sizeof words);
+  return rounded_255th(halves[0], halves[1]);
+}
+#else
 /// Divides each, up to 255 * 255, by 255 and rounds to nearest.
 [[gnu::always_inline]] inline Bytes rounded_255th(const Words& words) {
   const Words rounded = words + 128;
   return narrowed((rounded + (rounded >> 8)) >> 8);
 }
+#endif
 
 /// True if all bits are zero.
 [[gnu::always_inline]] inline bool is_zero(const Words& words) {

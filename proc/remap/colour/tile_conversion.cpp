@@ -160,6 +160,41 @@ void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const Mutable
                                  : yuv_to_rgb<format, false>(tile, colour_space, out, area, kernel);
 }
 
+void store(const SampleRun& run, std::uint8_t* to) { std::memcpy(to, run.data(), sizeof run); }
+
+/// Converts a whole tile to planes; those of red and blue have the numbers `red` and `blue`.
+template <PixelFormat format>
+void yuv_to_planes(const SampledTile& tile, ColourSpace colour_space, std::size_t red,
+                   std::size_t blue, PlanarTile& out) {
+  constexpr int kRowsOfChroma = 1 << shift(samplings(format).items[1].y);
+  const YuvToRgb convert = conversion_from(colour_space);
+  for (int y = 0; y < kTile; y += kRowsOfChroma) {
+    const SharedColour shared = convert.shared(chroma_of_row<format>(tile, y));
+    for (int row = y; row < y + kRowsOfChroma; ++row) {
+      const RgbRun rgb = convert(run_at<SampleRun>(tile, 0, row * kTile), shared);
+      store(rgb.red, out.row(red, row));
+      store(rgb.green, out.row(1, row));
+      store(rgb.blue, out.row(blue, row));
+    }
+  }
+}
+
+/// Separates a whole tile of pixels of `bytes` bytes, of which the first three are channels.
+template <int bytes>
+void separate(const std::uint8_t* pixels, std::size_t first, std::size_t third, PlanarTile& out) {
+  for (int y = 0; y < kTile; ++y, pixels += kRun * bytes) {
+    std::array<SampleRun, 3> channels;
+    for (std::size_t x = 0; x < kRun; ++x) {
+      channels[0][x] = pixels[bytes * x];
+      channels[1][x] = pixels[bytes * x + 1];
+      channels[2][x] = pixels[bytes * x + 2];
+    }
+    store(channels[0], out.row(first, y));
+    store(channels[1], out.row(1, y));
+    store(channels[2], out.row(third, y));
+  }
+}
+
 /// Converts Rgb to Bgr or back.
 void swap_red_and_blue(const SampledTile& tile, const MutablePicture& out, const TileArea& area) {
   write_rows<3>(out, area, [&](int y, std::uint8_t* to) {
@@ -222,6 +257,30 @@ void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_
       return copy(tile, format, out, area);
   }
 }
+
+void write_planes(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
+                  PixelFormat order, PlanarTile& out) {
+  const std::size_t red = order == PixelFormat::Bgr ? 2 : 0, blue = 2 - red;
+  switch (format) {
+    case PixelFormat::Yuyv:
+    case PixelFormat::Uyvy:
+      return yuv_to_planes<PixelFormat::Yuyv>(tile, colour_space, red, blue, out);
+    case PixelFormat::Nv12:
+      return yuv_to_planes<PixelFormat::Nv12>(tile, colour_space, red, blue, out);
+    case PixelFormat::Nv21:
+      return yuv_to_planes<PixelFormat::Nv21>(tile, colour_space, red, blue, out);
+    case PixelFormat::I420:
+      return yuv_to_planes<PixelFormat::I420>(tile, colour_space, red, blue, out);
+    case PixelFormat::Bgra:
+      return separate<4>(tile.planes[0].data(), blue, red, out);
+    case PixelFormat::Bgr:
+      return separate<3>(tile.planes[0].data(), blue, red, out);
+    default:
+      return separate<3>(tile.planes[0].data(), red, blue, out);
+  }
+}
+
+void separate(const std::uint8_t* pixels, PlanarTile& out) { separate<3>(pixels, 0, 2, out); }
 
 void write_luminance(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
                      const TileArea& area) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "proc/image/picture.h"
+#include "proc/remap/colour/planar_tile.h"
 #include "proc/remap/grid/coordinate.h"
 #include "proc/remap/sampling/plane_sampling.h"
 
@@ -37,6 +38,14 @@ constexpr std::uint8_t black(const PlaneSampling& sampling, PixelFormat format,
 /// can_remap). Every kernel produces the same bytes. Reentrant.
 void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
                 const MutablePicture& out, const TileArea& area, const Kernel& kernel);
+
+/// Writes a whole tile that was sampled from a format of colours in planes, in the order `order`,
+/// Rgb or Bgr. Reentrant.
+void write_planes(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
+                  PixelFormat order, PlanarTile& out);
+
+/// Separates the channels of a whole tile of three. Reentrant.
+void separate(const std::uint8_t* pixels, PlanarTile& out);
 
 /// Writes the luminance of a tile that was sampled from a Yuv format into its area of `out`, Grey:
 /// the source's own Y, brought to the full range. Reentrant.

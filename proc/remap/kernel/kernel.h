@@ -11,6 +11,7 @@
 #include "proc/image/image_view.h"
 #include "proc/image/result.h"
 #include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/planar_tile.h"
 #include "proc/remap/colour/yuv420_tile.h"
 #include "proc/remap/colour/yuv_rows.h"
 #include "proc/remap/kernel/kernel_map.h"
@@ -36,7 +37,7 @@ struct PointJob {
 
 /// True if a kernel of this processor may have `find_entries` and `write_rgb`; if none has, tiles
 /// skip the check.
-#ifdef __x86_64__
+#if defined(__x86_64__) || defined(__aarch64__)
 inline constexpr bool kKernelsConvert = true;
 #else
 inline constexpr bool kKernelsConvert = false;
@@ -52,6 +53,8 @@ struct Kernel {
                                const ImageView<const std::uint16_t>& values, std::uint8_t* entries);
   using LookUp = void (*)(const ColourTable& table, const IndexRuns& runs,
                           const ImageView<std::uint8_t>& out);
+  using LookUpPlanes = void (*)(const ColourTable& table, const std::uint8_t* indices,
+                                PlanarTile& out);
   using LookUpYuv420 = void (*)(const ColourTable& table, const IndexRuns& runs,
                                 const Yuv420Planes& out);
   using WriteRgb = void (*)(const YuvRows& yuv, const YuvCoefficients& coefficients,
@@ -73,12 +76,18 @@ struct Kernel {
   /// interpolated linearly and rounded, for each n, so that they add up to 255 in every pixel too;
   /// the mean by these is rounded to nearest. `out` is one tile of 1 or 3 channels. Reentrant.
   Mix mix;
+  /// The same for samples of PlanarTile; `out` has 3 channels. Null where pixels are mixed as fast,
+  /// and made faster, as they lie in a view. Reentrant.
+  Mix mix_planes = nullptr;
   /// The same for samples of Yuv420Tile. The sums of shares for a sample of chroma are the means of
   /// those of its four pixels, rounded to nearest. Reentrant.
   MixYuv420 mix_yuv420;
   /// Writes the colours of runs of kRun indices into rows of `out`, which has the table's channels.
   /// Reentrant.
   LookUp look_up;
+  /// The same for kTile runs that follow one another, into a tile in planes. Set with mix_planes.
+  /// Reentrant.
+  LookUpPlanes look_up_planes = nullptr;
   /// Writes a tile from kTile runs of kRun indices into a table of Y, U and V: the chroma of each
   /// two by two pixels is the mean of theirs, rounded to nearest. Reentrant.
   LookUpYuv420 look_up_yuv420;

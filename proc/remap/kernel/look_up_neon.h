@@ -9,10 +9,13 @@
 
 #include "proc/image/image_view.h"
 #include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/planar_tile.h"
 #include "proc/remap/colour/run.h"
 #include "proc/remap/colour/yuv420_tile.h"
+#include "proc/remap/kernel/narrow_neon.h"
 
-// Colour lookup of the kernel for NEON: the table of a channel fills half of the registers.
+// Colour lookup of the kernel for NEON, and the indices for it: the table of a channel fills half
+// of the registers.
 
 namespace orbwatch::remap::neon {
 namespace {
@@ -65,6 +68,18 @@ inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
   }
 }
 
+/// Implements Kernel::look_up_planes.
+inline void look_up_planes(const ColourTable& table, const std::uint8_t* indices, PlanarTile& out) {
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    std::uint8_t* const to = out.plane(channel);
+    with_table(
+        table.planes[channel], [&](const auto& entries) __attribute__((always_inline)) {
+#pragma GCC unroll 16
+          for (int at = 0; at < kTile * kRun; at += kRun) vst1q_u8(to + at, entries(indices + at));
+        });
+  }
+}
+
 /// Looks up a channel of chroma: the means of each two by two indices' entries.
 [[gnu::always_inline]] inline void look_up_chroma(const std::array<std::uint8_t, 256>& plane,
                                                   const IndexRuns& runs, Yuv420Planes::Plane out) {
@@ -87,6 +102,28 @@ inline void look_up_yuv420(const ColourTable& table, const IndexRuns& runs,
   look_up_plane(table.planes[0], {runs.first, runs.stride, kTile}, out.y.first, out.y.stride);
   look_up_chroma(table.planes[1], runs, out.u);
   look_up_chroma(table.planes[2], runs, out.v);
+}
+
+/// Implements Kernel::find_entries: a difference that saturates is the clamp below.
+inline void find_table_entries(const ValueScale& scale,
+                               const ImageView<const std::uint16_t>& values,
+                               std::uint8_t* entries) {
+  const uint16x8_t low = vdupq_n_u16(scale.low);
+  const uint16x8_t most = vdupq_n_u16(static_cast<std::uint16_t>(scale.high - scale.low));
+  const uint16x8_t unit = vdupq_n_u16(scale.unit), step = vdupq_n_u16(scale.scale);
+  const auto halved = [&](const std::uint16_t* from) __attribute__((always_inline)) {
+    const uint16x8_t above = vminq_u16(vqsubq_u16(vld1q_u16(from), low), most);
+    const uint16x8_t upper = vmulq_u16(above, unit);
+    const uint32x4_t first = vmull_u16(vget_low_u16(upper), vget_low_u16(step));
+    const uint32x4_t second = vmull_high_u16(upper, step);
+    return vuzp2q_u16(vreinterpretq_u16_u32(first), vreinterpretq_u16_u32(second));
+  };
+  const std::uint16_t* from = values.data;
+  const std::ptrdiff_t stride = values.stride;
+#pragma GCC unroll 4
+  for (int rows = values.height; rows > 0; --rows, from += stride, entries += kRun) {
+    vst1q_u8(entries, rounded_shift<kEntryBits>(halved(from), halved(from + kRun / 2)));
+  }
 }
 
 }  // namespace

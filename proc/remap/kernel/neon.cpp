@@ -17,6 +17,7 @@
 
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/look_up_neon.h"
+#include "proc/remap/kernel/mix_neon.h"
 #include "proc/remap/kernel/neon_means.h"
 #include "proc/remap/kernel/neon_memory.h"
 #include "proc/remap/kernel/point_walk.h"
@@ -384,9 +385,12 @@ constexpr Kernel kKernel{
     .locate = walk_places<PointLanes>,
     .points = kPointWalks,
     .mix = mix_tiles,
+    .mix_planes = mix_planes,
     .mix_yuv420 = mix_yuv420_tiles,
     .look_up = look_up_colours,
+    .look_up_planes = look_up_planes,
     .look_up_yuv420 = look_up_yuv420,
+    .find_entries = find_table_entries,
     .means_along_x = kMeans<Mean::AlongX>,
     .means_along_y = kMeans<Mean::AlongY>,
     .means_of_four = kMeans<Mean::OfFour>,

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <optional>
 
+#include "proc/remap/colour/planar_tile.h"
 #include "proc/remap/colour/yuv420.h"
 #include "proc/remap/merge/source_tiles.h"
 
@@ -18,6 +19,7 @@ namespace {
 void fill(const ImageView<std::uint8_t>& out, std::uint8_t value) {
   if (out.width == kTile && out.height == kTile) {
     std::uint8_t* row = out.data;
+#pragma GCC unroll 16
     for (int y = 0; y < kTile; ++y, row += out.stride) std::fill_n(row, kTile, value);
     return;
   }
@@ -142,21 +144,45 @@ class Merger {
   [[gnu::noinline]] void mix(int tx, int ty, SourceSet sources, const TileArea& area) const {
     if constexpr (sizeof(T) == 1 && Channels == 3) {
       if ((sources & ~yuv420_) == 0) return mix_yuv420(tx, ty, sources, area);
+      if (kernel_.mix_planes != nullptr) return mix_planes(tx, ty, sources, area);
     }
     if constexpr (sizeof(T) == 1) {
-      std::array<Tile, kMaxSources> pictures;
-      std::array<MixedTile, kMaxSources> mixed;
-      std::size_t count = 0;
-      for_each(sources, [&](std::size_t n) {
-        write(tx, ty, n, area, pictures[count]);
-        mixed[count] = {pictures[count].samples.data(), plan_.blend->corners(n, tx, ty)};
-        ++count;
-      });
-      show(area, [&](const MutablePicture& out, const TileArea& place) {
-        kernel_.mix({mixed.data(), count}, part(out.samples<T>(), place));
-      });
-      fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
+      mix_tiles<Tile>(
+          tx, ty, sources, area,
+          [&](std::size_t n, Tile& picture) { write(tx, ty, n, area, picture); },
+          [&](std::span<const MixedTile> mixed) {
+            show(area, [&](const MutablePicture& out, const TileArea& place) {
+              kernel_.mix(mixed, part(out.samples<T>(), place));
+            });
+          });
     }
+  }
+
+  /// Calls `write(n, picture)` for each source, and `mix` with all of these pictures.
+  template <class Picture, class Write, class Mix>
+  [[gnu::always_inline]] void mix_tiles(int tx, int ty, SourceSet sources, const TileArea& area,
+                                        const Write& write, const Mix& mix) const {
+    std::array<Picture, kMaxSources> pictures;
+    std::array<MixedTile, kMaxSources> mixed;
+    std::size_t count = 0;
+    for_each(sources, [&](std::size_t n) {
+      write(n, pictures[count]);
+      mixed[count] = {pictures[count].samples.data(), plan_.blend->corners(n, tx, ty)};
+      ++count;
+    });
+    mix(std::span<const MixedTile>(mixed.data(), count));
+    fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
+  }
+
+  [[gnu::noinline]] void mix_planes(int tx, int ty, SourceSet sources, const TileArea& area) const {
+    mix_tiles<PlanarTile>(
+        tx, ty, sources, area,
+        [&](std::size_t n, PlanarTile& picture) { tiles_[n]->write_planes(tx, ty, picture); },
+        [&](std::span<const MixedTile> mixed) {
+          show(area, [&](const MutablePicture& out, const TileArea& place) {
+            kernel_.mix_planes(mixed, part(out.samples<std::uint8_t>(), place));
+          });
+        });
   }
 
   /// Mixes a tile of an I420 view in its own format. Other tiles of such a view are mixed as R'G'B'
@@ -164,16 +190,14 @@ class Merger {
   /// would be converted before mixing, and blended ones, few in a view, where a pixel that one
   /// source does not see would share its chroma with pixels that it does.
   [[gnu::noinline]] void mix_yuv420(int tx, int ty, SourceSet sources, const TileArea& area) const {
-    std::array<Yuv420Tile, kMaxSources> pictures;
-    std::array<MixedTile, kMaxSources> mixed;
-    std::size_t count = 0;
-    for_each(sources, [&](std::size_t n) {
-      tiles_[n]->write_yuv420(tx, ty, pictures[count].picture(), {0, 0, kTile, kTile});
-      mixed[count] = {pictures[count].samples.data(), plan_.blend->corners(n, tx, ty)};
-      ++count;
-    });
-    kernel_.mix_yuv420({mixed.data(), count}, planes_at(out_, area.x, area.y));
-    fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
+    mix_tiles<Yuv420Tile>(
+        tx, ty, sources, area,
+        [&](std::size_t n, Yuv420Tile& picture) {
+          tiles_[n]->write_yuv420(tx, ty, picture.picture(), {0, 0, kTile, kTile});
+        },
+        [&](std::span<const MixedTile> mixed) {
+          kernel_.mix_yuv420(mixed, planes_at(out_, area.x, area.y));
+        });
   }
 
   [[gnu::noinline]] void blend(int tx, int ty, SourceSet sources, const TileArea& area) const {

@@ -24,6 +24,7 @@ SourceTiles::SourceTiles(const MergedSource& source, PixelFormat view, Interpola
     : source_(source),
       kernel_(kernel),
       format_(source.pictures.front().format),
+      order_(view == PixelFormat::Bgr ? PixelFormat::Bgr : PixelFormat::Rgb),
       colour_(info(format_).colour),
       is_wide_(info(format_).bytes_per_sample() == 2),
       is_mapped_(colour_ == ColourModel::Luminance && source.colours != nullptr),
@@ -69,6 +70,20 @@ void SourceTiles::write(int tx, int ty, const MutablePicture& out, const TileAre
            : source_.match->apply(part(out.samples<std::uint8_t>(), area), out.format);
 }
 
+void SourceTiles::write_planes(int tx, int ty, PlanarTile& out) const {
+  if (is_mapped_) {
+    return is_wide_ ? write_mapped_planes<std::uint16_t>(tx, ty, out)
+                    : write_mapped_planes<std::uint8_t>(tx, ty, out);
+  }
+  if (source_.match != nullptr) {
+    TilePicture<std::uint8_t, 3> tile;
+    write(tx, ty, picture_of(order_, tile.view()), {0, 0, kTile, kTile});
+    return separate(tile.samples.data(), out);
+  }
+  tiles_.write_planes(tx, ty, order_, out);
+  measure(tx, ty);
+}
+
 void SourceTiles::measure(int tx, int ty) const {
   if (!measured_tiles_) return;
   const TileArea place = area_of(*source_.grid, tx, ty);
@@ -97,6 +112,12 @@ void SourceTiles::write_mapped(int tx, int ty, const MutablePicture& out,
   TilePicture<T, 1> tile;
   source_.colours->apply(values_of(tx, ty, tile), part(out.samples<std::uint8_t>(), area), kernel_,
                          out.format);
+}
+
+template <class T>
+void SourceTiles::write_mapped_planes(int tx, int ty, PlanarTile& out) const {
+  TilePicture<T, 1> tile;
+  source_.colours->apply(values_of(tx, ty, tile), out, kernel_, order_);
 }
 
 template <class T>

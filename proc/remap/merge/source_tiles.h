@@ -6,6 +6,7 @@
 
 #include "proc/image/image_view.h"
 #include "proc/image/picture.h"
+#include "proc/remap/colour/planar_tile.h"
 #include "proc/remap/grid/coordinate_grid.h"
 #include "proc/remap/merge/merged_remap.h"
 #include "proc/remap/sampling/tile_remap.h"
@@ -48,6 +49,9 @@ class SourceTiles {
   /// writes its measured plane.
   void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
 
+  /// The same for a whole tile that the source fills(), in planes; by a kernel with mix_planes.
+  void write_planes(int tx, int ty, PlanarTile& out) const;
+
   /// Writes only the measured plane of a tile, if it is to be written.
   void measure(int tx, int ty) const;
 
@@ -64,6 +68,8 @@ class SourceTiles {
   template <class T>
   void write_mapped(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
   template <class T>
+  void write_mapped_planes(int tx, int ty, PlanarTile& out) const;
+  template <class T>
   void write_mapped_yuv420(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
   template <class T>
   ImageView<T> values_of(int tx, int ty, TilePicture<T, 1>& tile) const;
@@ -71,6 +77,7 @@ class SourceTiles {
   const MergedSource& source_;
   const Kernel& kernel_;
   PixelFormat format_;
+  PixelFormat order_;  ///< Rgb or Bgr, of the view's channels
   ColourModel colour_;
   bool is_wide_;    ///< 16 bit
   bool is_mapped_;  ///< one channel is mapped to colours

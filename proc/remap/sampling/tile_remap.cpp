@@ -136,12 +136,28 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   };
   if (in_place == nullptr && write_simple(tx, ty, targets)) return convert();
   if (sample_smooth(tx, ty, targets)) return convert();
-  CoordinateTile coordinates = grid_.pixels(tx, ty);
-  if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
-  sample(coordinates, reading(grid_.tile(tx, ty)), targets);
+  const CoordinateTile coordinates = sample_pixels(tx, ty, targets);
   convert();
   if (format_ != out.format && sampled_ == SampledPlanes::All)
     clear_undefined(coordinates, out, area);
+}
+
+void TileRemap::write_planes(int tx, int ty, PixelFormat order, PlanarTile& out) const {
+  SampledTile sampled;
+  const Targets targets = targets_in(sampled);
+  if (!write_simple(tx, ty, targets) && !sample_smooth(tx, ty, targets)) {
+    sample_pixels(tx, ty, targets);
+  }
+  remap::write_planes(sampled, format_, colour_space_, order, out);
+}
+
+/// Samples a tile of any kind pixel by pixel, and returns its coordinates.
+[[gnu::noinline]] CoordinateTile TileRemap::sample_pixels(int tx, int ty,
+                                                          const Targets& targets) const {
+  CoordinateTile coordinates = grid_.pixels(tx, ty);
+  if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
+  sample(coordinates, reading(grid_.tile(tx, ty)), targets);
+  return coordinates;
 }
 
 /// Samples a tile of patches; false for another one, or where places are rounded to pixels.

@@ -47,6 +47,9 @@ class TileRemap {
 
   /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`.
   void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+  /// Writes a tile that is whole and defined throughout in planes, in the order `order`, Rgb or
+  /// Bgr, from a source of colours.
+  void write_planes(int tx, int ty, PixelFormat order, PlanarTile& out) const;
   /// Writes a row of tiles of the view `out`.
   void write_row(int ty, const MutablePicture& out) const;
 
@@ -63,6 +66,7 @@ class TileRemap {
   bool write_simple(int tx, int ty, const Targets& targets) const;
   void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
                    const Targets* in_place) const;
+  CoordinateTile sample_pixels(int tx, int ty, const Targets& targets) const;
   bool sample_smooth(int tx, int ty, const Targets& targets) const;
   void fetch(int tx, int ty) const;
   void fetch_targets(const Targets& targets, int tx) const;

@@ -66,6 +66,27 @@ bool is_packed_yuv(PixelFormat format) {
 }
 bool is_yuv(PixelFormat format) { return info(format).colour == ColourModel::Yuv; }
 
+TEST(WritePlanes, SeparatesWhatWriteTileInterleaves) {
+  const SampledTile tile = noise();
+  for (const PixelFormatInfo& facts : kPixelFormats) {
+    if (facts.colour == ColourModel::Luminance || facts.bytes_per_sample() > 1) continue;
+    for (const PixelFormat order : {PixelFormat::Rgb, PixelFormat::Bgr}) {
+      SCOPED_TRACE(testing::Message() << facts.name << " to " << info(order).name);
+      BlankView expected(order, kTile, kTile);
+      const ColourSpace space{ColourMatrix::Bt709, ColourRange::Limited};
+      write_tile(tile, facts.format, space, expected.picture, {0, 0, kTile, kTile},
+                 scalar_kernel());
+      PlanarTile found;
+      write_planes(tile, facts.format, space, order, found);
+      for (int y = 0; y < kTile; ++y) {
+        for (int i = 0; i < 3 * kTile; ++i) {
+          ASSERT_EQ(std::byte{found.row(i % 3, y)[i / 3]}, expected.at(0, y, i)) << i << ", " << y;
+        }
+      }
+    }
+  }
+}
+
 TEST(WriteTile, CopiesPlanesInTheirOwnFormat) {
   const SampledTile tile = noise();
   for (const PixelFormatInfo& facts : kPixelFormats) {

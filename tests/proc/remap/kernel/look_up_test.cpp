@@ -58,6 +58,24 @@ TEST_P(LookUp, WritesTheColoursOfEveryRunAndNothingElse) {
   }
 }
 
+TEST(LookUpPlanes, WriteTheChannelsOfATile) {
+  std::mt19937 random(13);
+  const ColourTable table = noise(random, 3);
+  tests::GuardedMemory index_memory(kTile * kRun);
+  const std::span indices = index_memory.last(kTile * kRun);
+  std::ranges::generate(indices, [&] { return static_cast<std::uint8_t>(random()); });
+  for (const Kernel* kernel : kernels()) {
+    if (kernel->look_up_planes == nullptr) continue;
+    PlanarTile out;
+    kernel->look_up_planes(table, indices.data(), out);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      for (std::size_t k = 0; k < indices.size(); ++k) {
+        ASSERT_EQ(out.plane(channel)[k], table.planes[channel][indices[k]]) << channel << ", " << k;
+      }
+    }
+  }
+}
+
 TEST_P(LookUp, MeansTheChromaOfEachFourPixels) {
   std::mt19937 random(12);
   constexpr int kHalf = kTile / 2;

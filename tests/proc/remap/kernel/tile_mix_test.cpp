@@ -58,6 +58,29 @@ TEST(TileMix, OfEveryKernelIsTheMeanByRoundedSharesAndWritesNothingElse) {
   }
 }
 
+// The channels of the same samples, one after the other.
+TEST(TileMix, OfPlanesIsThatOfPixels) {
+  for (const Kernel* kernel : kernels()) {
+    if (kernel->mix_planes == nullptr) continue;
+    for (std::size_t count = 1; count <= kMaxSources; ++count) {
+      for (std::uint32_t seed = 0; seed < 40; ++seed) {
+        PixelMix scene(count, 3, seed);
+        std::vector<PlanarTile> planes(count);
+        for (std::size_t n = 0; n < count; ++n) {
+          for (std::size_t i = 0; i < planes[n].samples.size(); ++i) {
+            planes[n].plane(i % 3)[i / 3] = scene.pictures[n][i];
+          }
+          scene.tiles[n].samples = planes[n].samples.data();
+        }
+        kernel->mix_planes(scene.tiles, {scene.out.data(), kTile, kTile, 3, scene.stride});
+        SCOPED_TRACE(std::string(kernel->name) + ", " + std::to_string(count) + " sources, seed " +
+                     std::to_string(seed));
+        ASSERT_NO_FATAL_FAILURE(scene.check());
+      }
+    }
+  }
+}
+
 TEST(TileMix, OfEqualPicturesIsThatPicture) {
   for (std::size_t count = 1; count <= kMaxSources; ++count) {
     PixelMix scene(count, 3, static_cast<std::uint32_t>(count));

@@ -59,6 +59,33 @@ TEST_F(MergedRemap, BgrIsRgbInTheOtherOrder) {
   }
 }
 
+// Each format beside a colour-mapped camera and one of matched exposure.
+TEST_F(MergedRemap, IsTheSameFromEveryKernel) {
+  using enum PixelFormat;
+  PhotometricMatch darker;
+  darker.channels.fill({0.8, 0.01});
+  for (const PixelFormat format : {Rgb, Bgr, Bgra, Nv12, Nv21, I420, Yuyv, Uyvy, Grey}) {
+    cameras.clear();
+    add(0, format);
+    add(60, Y16);
+    add(-60, format);
+    if (format != Grey) cameras[2]->match.emplace(darker, Rgb);
+    compile();
+    for (const PixelFormat view_format : {Rgb, Bgr, I420}) {
+      StoredPicture expected(view_format, kWidth, kHeight), found(view_format, kWidth, kHeight);
+      expected.picture.colour_space = found.picture.colour_space = kJfif;
+      target = expected.picture;
+      render(MergeRule::Mean, std::nullopt, scalar_kernel());
+      target = found.picture;
+      for (const Kernel* kernel : kernels()) {
+        render(MergeRule::Mean, std::nullopt, *kernel);
+        EXPECT_EQ(found.bytes, expected.bytes)
+            << kernel->name << ", " << info(format).name << " to " << info(view_format).name;
+      }
+    }
+  }
+}
+
 /// A source's view alone, all of it 8 bit, as Grey.
 std::vector<std::uint8_t> luma_of(const std::vector<std::uint8_t>& rgb) {
   std::vector<std::uint8_t> grey(rgb.size() / 3);
