@@ -14,17 +14,17 @@ FLAT = ("flat_o0", "flat_o1", "flat_o2")
 
 # Limit and aim for the three flat views together, by format.
 REMAP = {"grey": (5.8, 5.0), "nv12": (8.5, 7.5), "bgr": (14.5, 13), "y16": (10.7, 10)}
-MERGED = {"nv12": (13, 11.5), "yuyv": (15, 14), "rgb": (12.5, 11.3), "nv12_y16": (32, 28),
-          "rgb_y16": (36, 29), "grey_y16": (32, 25), "panorama": (52.5, 48),
-          "panorama_grey": (45, 42), "nv12_measured": (20.5, 18.5), "rgb_measured": (29, 26)}
+MERGED = {"nv12": (13, 11.5), "yuyv": (15, 14), "rgb": (12.5, 11.3), "nv12_y16": (29, 28),
+          "rgb_y16": (29, 28), "grey_y16": (25, 24), "panorama": (46, 44),
+          "panorama_grey": (37, 35), "nv12_measured": (20.5, 18.5), "rgb_measured": (29, 26)}
 # Millions in a frame set of the reference machine by what its views are read as, without JPEG's
 # compression and network.
-FRAME_SET = {"rgb": (121, 105), "jpeg": (111, 100)}
+FRAME_SET = {"rgb": (109, 105), "jpeg": (105.5, 100)}
 # Of these, from the last frame to registers, alarms and lines out, while all views are read.
 ANSWER = (30, 25)
 ANSWER_STAGES = ("commands", "measured_halving", "measured_plane", "measurement", "status")
 # Per pixel of the reference machine's panorama of 1024x512, read as RGB.
-SMALL_PANORAMA = (80, 55)
+SMALL_PANORAMA = (70, 55)
 SMALL_PANORAMA_PIXELS = 1024 * 512
 # Limit and aim per sample of the plane that is sharpened.
 SHARPENING = {"nv12": (3, 2.6), "yuyv": (3, 2.6), "rgb": (3, 2.6)}

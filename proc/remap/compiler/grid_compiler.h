@@ -55,10 +55,12 @@ class CoordinateGrid::Compiler {
   std::optional<Tile> split_tile(int tx, int ty, const Surfaces& surfaces);
   std::optional<Tile> fine_tile(const Place& place);
   bool follows_the_map(const CoordinateTile& pixels, const Place& place, int level) const;
-  std::optional<Tile> curved_tile(const Stencil& nodes, double fourth) const;
+  std::optional<Tile> curved_tile(const Stencil& nodes, const Place& place);
+  std::optional<Tile> fitted_tile(const FineTile<8>& curve, double fourth, const Place& place);
   template <int Cell>
   std::optional<Tile> tile_of_cells(TileKind kind, const FineTile<Cell>& fine, double fourth) const;
   Tile pixel_tile(int tx, int ty, const Surfaces& surfaces);
+  void own_nodes(Tile& tile, const Stencil& nodes);
   std::optional<Tile> patch_tile(const Stencil& nodes, int tx, int ty) const;
 
   std::optional<Stencil> stencil(const Place& place);

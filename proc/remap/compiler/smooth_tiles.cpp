@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "proc/remap/compiler/fitted_patch.h"
 #include "proc/remap/compiler/grid_compiler.h"
 #include "proc/remap/compiler/mip_level.h"
 #include "proc/remap/compiler/tolerance.h"
@@ -61,23 +62,24 @@ Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
   const auto nodes = stencil(place);
   if (nodes && is_close(*nodes, place, level_of(*nodes))) {
     auto tile = patch_tile(*nodes, place.tx, place.ty);
-    if (tile && tile->kind == TileKind::Patch && !place.uniform) {
-      tile->kind = TileKind::OwnPatch;
-      tile->index = static_cast<std::uint32_t>(grid_.own_nodes_.size());
-      grid_.own_nodes_.push_back(*nodes);
-    }
+    if (tile && tile->kind == TileKind::Patch && !place.uniform) own_nodes(*tile, *nodes);
     if (tile) return *tile;
   } else {
-    const bool on_grid = nodes && place.uniform;
-    if (auto tile = on_grid ? curved_tile(*nodes, curve_error(place)) : std::nullopt) {
-      tile->patch_at_half = is_close(*nodes, place, tile->level + 1);
-      return *tile;
+    if (nodes && place.uniform) {
+      if (const auto tile = curved_tile(*nodes, place)) return *tile;
     }
-    if (auto tile = fine_tile(place)) return *tile;
+    if (const auto tile = fine_tile(place)) return *tile;
   }
   Surfaces surfaces;
   for (auto& row : surfaces) row.fill(place.surface);
   return pixel_tile(place.tx, place.ty, surfaces);
+}
+
+/// Makes a Patch tile one on nodes of its own.
+void CoordinateGrid::Compiler::own_nodes(Tile& tile, const Stencil& nodes) {
+  tile.kind = TileKind::OwnPatch;
+  tile.index = static_cast<std::uint32_t>(grid_.own_nodes_.size());
+  grid_.own_nodes_.push_back(nodes);
 }
 
 /// A Patch tile, or an Outside one; nullopt when the source picture's border runs through it.
@@ -119,10 +121,39 @@ bool CoordinateGrid::Compiler::is_inside(const Patch& patch, int level) const {
          SourceExtent(grid_.source_height_, level).surely_holds(low.v, high.v);
 }
 
-/// A third-order tile on the grid's nodes; nullopt when it is not close or not inside the source.
+/// A tile whose map a third-order curve through the grid's nodes follows: the patch that fits the
+/// curve best, if it is close, else the curve in cells. nullopt when neither is close or inside the
+/// source.
 std::optional<Tile> CoordinateGrid::Compiler::curved_tile(const Stencil& nodes,
-                                                          double fourth) const {
-  return tile_of_cells(TileKind::Curved, remap::curved_tile(nodes), fourth);
+                                                          const Place& place) {
+  const double fourth = curve_error(place);
+  const FineTile<8> curve = remap::curved_tile(nodes);
+  const auto in_cells = tile_of_cells(TileKind::Curved, curve, fourth);
+  if (!in_cells) return std::nullopt;
+  const auto fitted = fitted_tile(curve, fourth, place);
+  return fitted ? fitted : in_cells;
+}
+
+/// `fourth`: the error of the curve itself.
+std::optional<Tile> CoordinateGrid::Compiler::fitted_tile(const FineTile<8>& curve, double fourth,
+                                                          const Place& place) {
+  const FineTile<4> fine = remap::curved_tile(curve);
+  const CoordinateTile pixels = fine.pixels();
+  const Stencil nodes = fitted_nodes(pixels);
+  if (is_too_steep(nodes, kTile)) return std::nullopt;
+  double cells = 0;
+  for (int j = 0; j < fine.kCells; ++j) {
+    for (int i = 0; i < fine.kCells; ++i) {
+      cells = std::max(cells, third_order_error(fine.stencil(i, j)));
+    }
+  }
+  if (largest_error(Patch(nodes), pixels) + cells + fourth > close_at(level_of(nodes))) {
+    return std::nullopt;
+  }
+  auto tile = patch_tile(nodes, place.tx, place.ty);
+  if (!tile || tile->kind != TileKind::Patch) return std::nullopt;
+  own_nodes(*tile, nodes);
+  return tile;
 }
 
 /// Common part of tiles of finer patches. `fourth`: the error beyond the third order.

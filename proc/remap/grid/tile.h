@@ -14,7 +14,7 @@ enum class TileKind : std::uint8_t {
   Blind,       ///< no pixel is on the ball's picture: filled without reading
   Outside,     ///< every pixel falls outside the source picture: filled without reading
   Patch,       ///< one patch on the grid's nodes
-  OwnPatch,    ///< one patch on nodes of its own
+  OwnPatch,    ///< one patch on nodes of its own: fitted, or those of its surface at an edge
   Curved,      ///< cells on a curve through the grid's nodes
   Fine,        ///< cells on nodes every 8 px
   CurvedFine,  ///< cells on a curve through such nodes
@@ -45,9 +45,6 @@ struct Tile {
   /// The source's mip level for which a view smaller than the source does not alias: 0..kMaxLevel.
   /// Coordinates count pixels of level 0.
   std::uint8_t level = 0;
-  /// True if a Patch on the grid's nodes is close enough for planes of half the resolution along
-  /// both axes, whose pixels are twice as large: for a tile that is Curved.
-  bool patch_at_half = false;
   std::uint32_t index = 0;  ///< index in its store; without one, the tile's number, row by row
 };
 
@@ -60,13 +57,13 @@ class TileTable {
 
   Tile operator[](std::size_t number) const {
     const Record& record = records_[number];
-    return {record.kind, record.interior, record.level, record.patch_at_half,
+    return {record.kind, record.interior, record.level,
             has_store(record.kind) ? index(number) : static_cast<std::uint32_t>(number)};
   }
 
   /// Tiles with a store must be set in ascending order.
   void set(std::size_t number, const Tile& tile) {
-    records_[number] = Record{tile.kind, tile.interior, tile.level, tile.patch_at_half};
+    records_[number] = Record{tile.kind, tile.interior, tile.level};
     if (has_store(tile.kind)) set_index(number, tile.index);
   }
 
@@ -80,7 +77,6 @@ class TileTable {
     TileKind kind : 4 = TileKind::Blind;
     bool interior : 1 = false;
     std::uint8_t level : 2 = 0;
-    bool patch_at_half : 1 = false;
   };
   static_assert(sizeof(Record) == 1 && kMaxLevel < 4);
 

@@ -60,8 +60,6 @@ class PlaneSampler {
   int rows() const { return rows_; }                ///< height of a tile
   int pixel_bytes() const { return pixel_bytes_; }  ///< bytes of an output pixel
   int tile_bytes() const { return tile_bytes_; }    ///< bytes of a tile's row
-  /// True if the plane has half the picture's resolution along both axes.
-  bool is_half() const { return sampling_.x != Siting::Full && sampling_.y != Siting::Full; }
   bool has_blocks() const { return block_kernel_ != nullptr; }
 
   /// Prefetches the samples of an area of the picture.

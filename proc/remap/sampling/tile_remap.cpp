@@ -165,19 +165,11 @@ void TileRemap::write_planes(int tx, int ty, PixelFormat order, PlanarTile& out)
   if (interpolation_ == Interpolation::Nearest) return false;
   const Tile tile = grid_.tile(tx, ty);
   const Reading reading = this->reading(tile);
-  const auto sample_patch = [&](PlaneRange planes) {
-    sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets, planes);
-  };
   if (is_patch(tile.kind)) {
-    sample_patch({0, plane_count_});
+    sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets);
     return true;
   }
-  // Chroma may be a single patch although luminance is not.
-  const bool is_apart = tile.patch_at_half && planes_[plane_count_ - 1].is_half();
-  const PlaneRange in_cells{0, is_apart ? 1 : plane_count_};
-  if (is_apart) sample_patch({in_cells.last, plane_count_});
-  return grid_.visit_cells(tile,
-                           [&](const auto& cells) { sample(cells, reading, targets, in_cells); });
+  return grid_.visit_cells(tile, [&](const auto& cells) { sample(cells, reading, targets); });
 }
 
 /// The last factor of two is averaged from samples, which keeps more detail than a mip level.
@@ -211,31 +203,29 @@ TileRemap::Targets TileRemap::targets_in(SampledTile& tile) const {
   return targets;
 }
 
-void TileRemap::sample(const Patch& patch, Reading reading, const Targets& targets,
-                       PlaneRange planes) const {
+void TileRemap::sample(const Patch& patch, Reading reading, const Targets& targets) const {
   const Patch map = reading.mip_level > 0 ? on_level(patch, reading.mip_level) : patch;
-  for (std::size_t n = planes.first; n < planes.last; ++n) {
+  for (std::size_t n = 0; n < plane_count_; ++n) {
     planes_[n].sample(map, reading, targets[n]);
   }
 }
 
 /// The same for a patch in each cell.
 template <int Cell>
-void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets,
-                       PlaneRange planes) const {
+void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const {
   Targets parts = targets;
-  for (std::size_t n = planes.first; n < planes.last; ++n) {
+  for (std::size_t n = 0; n < plane_count_; ++n) {
     parts[n].columns /= cells.kCells;
     parts[n].rows /= cells.kCells;
   }
   for (int j = 0; j < cells.kCells; ++j) {
     for (int i = 0; i < cells.kCells; ++i) {
-      for (std::size_t n = planes.first; n < planes.last; ++n) {
+      for (std::size_t n = 0; n < plane_count_; ++n) {
         TargetPlane& part = parts[n];
         part.data = targets[n].data + j * part.rows * part.stride +
                     std::ptrdiff_t{i} * part.columns * planes_[n].pixel_bytes();
       }
-      sample(cells.patch(i, j), reading, parts, planes);
+      sample(cells.patch(i, j), reading, parts);
     }
   }
 }

@@ -54,10 +54,6 @@ class TileRemap {
   void write_row(int ty, const MutablePicture& out) const;
 
  private:
-  /// Planes [first, last) of planes_.
-  struct PlaneRange {
-    std::size_t first, last;
-  };
   /// Targets of a tile's samples, one per sampling.
   using Targets = std::array<TargetPlane, 3>;
 
@@ -71,10 +67,9 @@ class TileRemap {
   void fetch(int tx, int ty) const;
   void fetch_targets(const Targets& targets, int tx) const;
   Reading reading(const Tile& tile) const;
-  void sample(const Patch& patch, Reading reading, const Targets& targets, PlaneRange planes) const;
+  void sample(const Patch& patch, Reading reading, const Targets& targets) const;
   template <int Cell>
-  void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets,
-              PlaneRange planes) const;
+  void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const;
   void sample(const CoordinateTile& coordinates, Reading reading, const Targets& targets) const;
 
   const CoordinateGrid& grid_;

@@ -253,14 +253,13 @@ TEST(CoordinateGrid, APanoramaHasPatchesWhereItIsSmaller) {
   EXPECT_GT(patches, smaller / 3);
 }
 
-TEST(CoordinateGrid, APatchAtHalfIsExactToPixelsOfTwiceTheSize) {
+TEST(CoordinateGrid, AFittedPatchIsExact) {
   const SmallPanorama scene;
   int found = 0;
   double worst = 0;
   for_each_tile(scene.grid, [&](const Tile& tile, int tx, int ty) {
-    if (!tile.patch_at_half) return;
+    if (tile.kind != TileKind::OwnPatch) return;
     ++found;
-    ASSERT_EQ(tile.kind, TileKind::Curved);
     const Patch patch(scene.grid.nodes(tile, tx, ty));
     for (int y = 0; y < kTile; ++y) {
       for (int x = 0; x < kTile; ++x) {
@@ -273,8 +272,8 @@ TEST(CoordinateGrid, APatchAtHalfIsExactToPixelsOfTwiceTheSize) {
       }
     }
   });
-  EXPECT_GT(found, 300);
-  EXPECT_LE(worst, 2 * kTolerance);
+  EXPECT_GT(found, 500);
+  EXPECT_LE(worst, kTolerance);
 }
 
 TEST(CoordinateGrid, KeepsEachTileInTheLeastThatDescribesIt) {

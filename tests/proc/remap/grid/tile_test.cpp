@@ -12,7 +12,7 @@ Tile random_tile(std::mt19937& random, double own) {
   std::uniform_real_distribution<double> share(0, 1);
   const auto any = [&](int count) { return static_cast<int>(share(random) * count); };
   Tile tile{static_cast<TileKind>(any(3)), any(2) == 1,
-            static_cast<std::uint8_t>(any(kMaxLevel + 1)), any(2) == 1};
+            static_cast<std::uint8_t>(any(kMaxLevel + 1))};
   if (share(random) < own) {
     tile.kind = static_cast<TileKind>(3 + any(6));
     if (has_store(tile.kind)) tile.index = random();
@@ -35,7 +35,6 @@ TEST(TileTable, GivesBackWhatItWasGiven) {
       EXPECT_EQ(tile.kind, tiles[i].kind);
       EXPECT_EQ(tile.interior, tiles[i].interior);
       EXPECT_EQ(tile.level, tiles[i].level);
-      EXPECT_EQ(tile.patch_at_half, tiles[i].patch_at_half);
       EXPECT_EQ(tile.index, tiles[i].index) << own << ' ' << i;
     }
   }
