@@ -6,8 +6,8 @@
 namespace orbwatch::remap::neon {
 namespace {
 
-/// Each number of 16 bits shifted right by `bits`, 1 to 8, rounded, in 8 bits. In assembly, since g++
-/// copies the lower half before it writes the upper one.
+/// Each number of 16 bits shifted right by `bits`, 1 to 8, rounded, in 8 bits. In assembly, since
+/// g++ copies the lower half before it writes the upper one.
 template <int bits>
 [[gnu::always_inline]] inline uint8x16_t rounded_shift(uint16x8_t low, uint16x8_t high) {
   uint8x16_t narrow;
