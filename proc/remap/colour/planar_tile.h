@@ -10,8 +10,8 @@
 
 namespace orbwatch::remap {
 
-/// A tile of three channels in planes, each of kTile rows of kRun samples: the first is red, or blue
-/// where the view's order is B G R.
+/// A tile of three channels in planes, each of kTile rows of kRun samples: the first is red, or
+/// blue where the view's order is B G R.
 struct PlanarTile {
   static constexpr std::size_t kPlane = std::size_t{kTile} * kRun;
 
