@@ -69,12 +69,8 @@ Result<> check_writable(const fs::path& file) {
 
 }  // namespace
 
-InstalledConfiguration::InstalledConfiguration(fs::path file, const Chosen& chosen,
-                                               std::function<hal::TimePoint()> trial_end)
-    : file_(std::move(file)),
-      refusal_(chosen.refusal),
-      files_(files_of(chosen.site)),
-      trial_end_(std::move(trial_end)) {}
+InstalledConfiguration::InstalledConfiguration(fs::path file, const Chosen& chosen)
+    : file_(std::move(file)), refusal_(chosen.refusal), files_(files_of(chosen.site)) {}
 
 std::set<fs::path> InstalledConfiguration::named_files() const {
   std::set<fs::path> all(files_.begin(), files_.end());
@@ -119,8 +115,8 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
   state.trial.emplace();
   state.owner = (*trial)->owner;
   for (const auto& [file, text] : (*trial)->texts) (*state.trial)[name_of(file)] = text;
-  const hal::TimePoint end = trial_end_();
-  if (end != hal::TimePoint::max()) {
+  const hal::TimePoint end = trial_end_;
+  if (end != hal::TimePoint{}) {
     state.seconds_left = std::chrono::duration<double>(end - hal::Clock::now()).count();
   }
   return state;

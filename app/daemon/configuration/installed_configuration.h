@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,11 +18,11 @@ namespace orbwatch::app::daemon {
 /// The files that this daemon was started with.
 class InstalledConfiguration final : public ConfigurationFiles {
  public:
-  /// `chosen` runs in place of `file` or as it. `trial_end` returns the time at which the trial
-  /// that runs is reverted; max: none runs. It may be called on any thread.
-  InstalledConfiguration(
-      std::filesystem::path file, const Chosen& chosen,
-      std::function<hal::TimePoint()> trial_end = [] { return hal::TimePoint::max(); });
+  /// `chosen` runs in place of `file` or as it.
+  InstalledConfiguration(std::filesystem::path file, const Chosen& chosen);
+
+  /// The trial that runs goes back then.
+  void set_trial_end(hal::TimePoint end) { trial_end_ = end; }
 
   Result<State> read() const override;
   Result<Edit> with_changed_recipe(int number, const RecipeChange& change) const override;
@@ -45,7 +45,7 @@ class InstalledConfiguration final : public ConfigurationFiles {
   const std::optional<std::filesystem::path> folder_ = service_folder();
   const std::string refusal_;
   const std::vector<std::filesystem::path> files_;  ///< of what runs
-  const std::function<hal::TimePoint()> trial_end_;
+  std::atomic<hal::TimePoint> trial_end_{hal::TimePoint{}};
 };
 
 }  // namespace orbwatch::app::daemon

@@ -54,11 +54,11 @@ Result<> ApplianceThread::run() {
   remove_leftovers(chosen->site);
   record_outputs(chosen->site);
   ProgressNotice notice(chosen->refusal, context_.is_supervised);  // outlives the run
-  const auto trial_end = [&restarts] { return restarts.trial_end(); };
-  const auto files = std::make_shared<InstalledConfiguration>(context_.file, *chosen, trial_end);
+  const auto files = std::make_shared<InstalledConfiguration>(context_.file, *chosen);
   auto appliance = Appliance::make(
       chosen->site,
-      {[&restarts] { return restarts.check(); }, [&restarts] { restarts.restart(); }, trial_end},
+      {[&restarts] { return restarts.check(); }, [&restarts] { restarts.restart(); },
+       [&restarts] { return restarts.trial_end(); }},
       [&](const CalibrationEntry& entry) {
         return check_acceptance(context_.file, chosen->site, entry);
       },
@@ -73,6 +73,7 @@ Result<> ApplianceThread::run() {
   for (const std::string& line : (*appliance)->assumptions()) log_line(LogLevel::Info, line);
   keep(*chosen);
   restarts.begin_run();
+  if (chosen->trial) files->set_trial_end(restarts.trial_end());
   serve(**appliance);
   notify_of(restarts_);
   publish(nullptr);
