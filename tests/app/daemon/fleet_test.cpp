@@ -91,7 +91,8 @@ class FleetOfDaemons : public testing::Test {
   void start(std::size_t index) {
     const std::string name = "cell " + std::to_string(index);
     const auto file = folder_ / ("site" + std::to_string(index) + ".toml");
-    std::ofstream(folder_ / "rig.toml") << kRig;
+    // Once: the others read it.
+    if (!std::filesystem::exists(folder_ / "rig.toml")) std::ofstream(folder_ / "rig.toml") << kRig;
     std::ofstream(file) << "rig = \"rig.toml\"\nstate_folder = \"state" << index
                         << "\"\n[dds]\nname = \"" << name << "\"\nprefix = \"cell" << index
                         << "\"\n"
