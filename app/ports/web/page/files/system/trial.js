@@ -44,9 +44,10 @@ export class Trial {
     if (!this.isShown()) return;
     const answer = await fetch(kPath).catch(() => null);
     const state = answer && await answer.json().catch(() => null);
+    const isRestarting = !state || answer.status >= 500;
     if (answer?.ok && state) this.#show(state);
-    else if (state) this.say(texts.refused(state.error), true);
-    if (this.#trial || !answer) this.#again = setTimeout(() => this.refresh(), kAgainMs);
+    else if (!isRestarting) this.say(texts.refused(state.error), true);
+    if (this.#trial || isRestarting) this.#again = setTimeout(() => this.refresh(), kAgainMs);
   }
 
   #show(state) {
