@@ -32,7 +32,7 @@ inline const std::vector<Rule> kRules{
      {"tl/expected", "opencv2/"}},
     {"proc/align",
      {"proc/image", "proc/settings", "proc/optics", "proc/align"},
-     {"tl/expected", "opencv2/", "ceres/", "Eigen/"}},
+     {"tl/expected", "apriltag/", "opencv2/", "ceres/", "Eigen/"}},
     {"hal", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "gpiod", "linux/"}},
     {"hal/genicam",
      {"proc/image", "proc/settings", "hal"},
