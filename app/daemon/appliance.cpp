@@ -69,10 +69,12 @@ Appliance::Appliance(const files::Resolved& site)
           hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
           static_cast<std::size_t>(site.site.threads.background))),
       health_(health_of(site.site, record_), HealthSampler::kPeriod, background_),
+      machine_(site.site.machine),
       lines_(open_lines(site.site)) {}
 
 Appliance::~Appliance() {
   if (pipeline_) pipeline_->stop();
+  if (controller_) controller_->stop();
   if (interfaces_) interfaces_->stop();
   if (alignment_) alignment_->stop();
   if (watch_) watch_->stop();
@@ -89,13 +91,15 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
   for (const std::string& refusal : grants.refusals) log_line(LogLevel::Warning, refusal);
   std::unique_ptr<Appliance> made(new Appliance(site));
   Appliance& all = *made;
-  auto opened = open_cameras(site);
-  if (!opened) return tl::unexpected(opened.error());
-  const auto planned = SitePlan::make(site, opened->formats);
+  auto simulated = simulation::Machine::make(site.site.simulation, hal::Clock::now());
+  if (!simulated) return tl::unexpected(simulated.error());
+  OpenedCameras opened = open_cameras(site, *simulated);
+  const auto planned = SitePlan::make(site, opened.formats);
   if (!planned) return tl::unexpected(planned.error());
   auto plan = build(site, *planned);
   if (!plan) return tl::unexpected(plan.error());
-  add_cameras(*plan, std::move(*opened), site, *all.lines_);
+  add_cameras(*plan, std::move(opened), site, *all.lines_);
+  all.follow_machine(*plan, std::move(*simulated));
   plan->background = all.background_;
   // It must not delay the pictures that somebody waits for.
   all.watch_.emplace(all.aligned_, site.state_folder, hal::SharedThreads::alone("watch"));
@@ -105,8 +109,8 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
   const auto carry_out = [&all](const Command& command) {
     return dispatch(command, *all.receivers_);
   };
-  all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.background_,
-                          &*all.alignment_, std::move(program));
+  all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.machine_.path(),
+                          all.background_, &*all.alignment_, std::move(program));
   plan->surroundings = [&all, grants, trial_end = restart.trial_end](hal::TimePoint now) {
     return pipeline::Surroundings{all.health_.latest(now),    all.lines_->faults(),
                                   all.interfaces_->faults(),  grants.realtime,
@@ -120,6 +124,17 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
                                    all.interfaces_->find<SnapshotSink>(), *all.watch_,
                                    *all.alignment_, std::move(restart)});
   return made;
+}
+
+void Appliance::follow_machine(pipeline::PipelinePlan& plan,
+                               std::shared_ptr<const simulation::Machine> simulated) {
+  const MachineSource source = site_.site.machine.source;
+  if (source == MachineSource::None) return;
+  plan.machine = [this](hal::TimePoint now, const hal::FrameSet* set) -> const MachineStatus& {
+    return set ? machine_.follow(set->stamp, set->trigger) : machine_.keep(now);
+  };
+  if (source != MachineSource::Simulation) return;
+  controller_.emplace(std::move(simulated), machine_.path().handler);
 }
 
 /// The recipe as if it was commanded again. Measuring is stopped already.
@@ -149,6 +164,7 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
       "lines", [this] { return lines_->start(); }, now);
   interfaces_->start(attempts_, now);
   health_.start();
+  if (controller_) controller_->start();
   alignment_->start();
   std::vector<Sink*> sinks = interfaces_->sinks();
   sinks.insert(sinks.begin(), lines_.get());

@@ -15,10 +15,12 @@
 #include "app/daemon/site/interfaces.h"
 #include "app/files/resolve.h"
 #include "app/health/health_sampler.h"
+#include "app/machine/machine_follower.h"
 #include "app/model/command/restart.h"
 #include "app/model/configuration/program.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
+#include "app/simulation/simulated_controller.h"
 #include "app/state/command_record.h"
 #include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
@@ -64,6 +66,8 @@ class Appliance {
  private:
   explicit Appliance(const files::Resolved& site);
   std::array<CameraWatchStatus, kMaxCameras> watched() const;
+  void follow_machine(pipeline::PipelinePlan& plan,
+                      std::shared_ptr<const simulation::Machine> simulated);
   void restore(const Selection& selection);
 
   const files::Resolved& site_;
@@ -72,6 +76,7 @@ class Appliance {
   const std::shared_ptr<CommandRecord> record_;
   const std::shared_ptr<hal::SharedThreads> background_;
   HealthSampler health_;
+  machine::MachineFollower machine_;
   std::optional<pipeline::Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
   const std::shared_ptr<Lines> lines_;
   std::vector<std::string> assumptions_;
@@ -81,6 +86,7 @@ class Appliance {
   std::optional<AlignmentDesk> alignment_;
   std::optional<Receivers> receivers_;
   std::optional<Interfaces> interfaces_;
+  std::optional<simulation::SimulatedController> controller_;  ///< where it is the source
   Attempts attempts_;
   std::atomic<bool> configuration_refused_{false};  ///< read by the pipeline
 };

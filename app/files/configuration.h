@@ -9,6 +9,7 @@
 
 #include "app/files/camera_settings.h"
 #include "app/files/toml/finding.h"
+#include "app/machine/machine_settings.h"
 #include "app/model/alignment/place_settings.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "app/pipeline/pipeline_settings.h"
@@ -62,6 +63,7 @@ struct Configuration {
   std::vector<Located<LineSettings>> lines;
   std::vector<Located<pipeline::ViewSettings>> views;
   std::vector<Located<RecipeFile>> recipes;  ///< the first recipe is measured from the start
+  machine::MachineSettings machine;
   PlaceSettings place;
   std::filesystem::path state_folder;  ///< empty: the file names none; see Resolved::state_folder
   SinkSettings sinks;
@@ -85,6 +87,8 @@ void visit(Visitor& v, Configuration& configuration) {
   v.table("pipeline", configuration.pipeline, "Frame budget and workers");
   v.table("threads", configuration.threads, "Scheduling and memory of the frame path");
   v.table("simulation", configuration.simulation, "Simulated machine that simulated cameras see");
+  v.table("machine", configuration.machine,
+          "States of the machine that its controller sends, associated with frame sets by time");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,
            "Cameras; the first without a fault sets the pace");
   v.tables("line", configuration.lines, 0, 32, "Digital inputs and outputs");

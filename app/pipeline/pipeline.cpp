@@ -275,6 +275,7 @@ void Pipeline::idle() {
     measurement_->apply_commands(hal::Clock::now());
     measurement_->idle(cameras_.faulty() + cameras_.late() == cameras_.size());
   }
+  if (plan_.machine) status_.machine = plan_.machine(hal::Clock::now(), nullptr);
   publish_status();
 }
 
@@ -299,6 +300,7 @@ void Pipeline::begin_status(const hal::FrameSet& set) {
   status_.trigger = set.trigger.value_or(0);
   status_.unmatched += set.matched ? 0 : 1;
   largest_skew_ = std::max(largest_skew_, set.skew);
+  if (plan_.machine) status_.machine = plan_.machine(hal::Clock::now(), &set);
 }
 
 void Pipeline::end_set(hal::Clock::duration spent) {
@@ -316,7 +318,9 @@ void Pipeline::end_set(hal::Clock::duration spent) {
 void Pipeline::publish_status() {
   const auto now = hal::Clock::now();
   if (measurement_) {
-    measurement_->watch(now, [this](const AlarmNotice& notice) {
+    measurement_->watch(now, [this](AlarmNotice notice) {
+      notice.part = status_.machine.part;
+      notice.layer = status_.machine.values.layer;
       for (Sink* sink : sinks_) sink->accept_event(notice);
     });
     measurement_->report(status_);

@@ -69,6 +69,9 @@ struct PipelinePlan : PipelineSettings {
   /// Threads for work off the frame path, which may be slow.
   std::shared_ptr<hal::SharedThreads> background = hal::SharedThreads::alone();
   std::size_t reserved_cores = 0;  ///< cores for the frame path alone; 0: it shares all
+  /// Returns what the machine says at the exposure of a set; without a set, what it says still at
+  /// `now`. Does not wait. Null: it says nothing.
+  std::function<const MachineStatus&(hal::TimePoint now, const hal::FrameSet* set)> machine;
   /// Returns the newest figures without waiting; null: none are known.
   std::function<Surroundings(hal::TimePoint now)> surroundings;
 };

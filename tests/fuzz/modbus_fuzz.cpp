@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/ports/modbus/machine_registers.h"
 #include "app/ports/modbus/map/register_map.h"
 #include "app/ports/modbus/plc_handshake.h"
 #include "app/ports/modbus/server/mbap_framer.h"
@@ -86,7 +87,7 @@ class Connection {
     server_ = hal::FileDescriptor(ends[0]);
     client_ = hal::FileDescriptor(ends[1]);
     auto responder = app::modbus::Responder::create(
-        map_, [this](const app::modbus::Write& write) { write_registers(write); },
+        map_, [this](const app::modbus::Write& write) { return write_registers(write); },
         [this] {
           app::modbus::ProcessImage image;
           image.written = plc_.registers();
@@ -120,9 +121,21 @@ class Connection {
   }
 
  private:
-  void write_registers(const app::modbus::Write& write) {
+  std::optional<app::modbus::Exception> write_registers(const app::modbus::Write& write) {
     require(may_write_, "a write of a client that may only read");
+    if (app::modbus::writes_machine_state(write.range)) {
+      const auto refused = app::modbus::take_machine_state(write, map_, machine_);
+      if (refused) return refused;
+    }
     plc_.write(write, map_, {});
+    return std::nullopt;
+  }
+
+  /// A state that leaves the registers has only values that are not known or in their ranges.
+  static Result<> take_state(const app::MachineState& state) {
+    const auto checked = app::check(state);
+    require(checked.has_value(), "a state whose registers are in range is out of range");
+    return checked;
   }
 
   /// Frames are the bytes sent, without gaps.
@@ -173,6 +186,7 @@ class Connection {
   hal::FileDescriptor server_;
   hal::FileDescriptor client_;
   const app::modbus::RegisterMap& map_ = shared_map();
+  const app::MachinePath machine_{app::MachineSource::Modbus, take_state};
   app::CommandRecord record_;
   app::modbus::PlcHandshake plc_{record_,
                                  [](const app::Command&) { return app::CommandResult::Done; },

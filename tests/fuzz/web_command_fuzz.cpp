@@ -11,10 +11,20 @@
 #include "app/ports/web/api/record_schema.h"
 #include "app/ports/web/commands/command_body.h"
 #include "app/ports/web/http/address.h"
+#include "app/ports/web/machine/machine_desk.h"
 
-/// Any bytes as the body of a command over HTTP, as that of a user, as a users file and as a Host
-/// header: the first byte selects the command. An accepted command must be an allowed one of that
-/// name, a refusal must have a reason, and only numbers and localhost are names of this host.
+namespace {
+
+orbwatch::Result<> take_state(const orbwatch::app::MachineState& state) {
+  return orbwatch::app::check(state);
+}
+
+}  // namespace
+
+/// Any bytes as the body of a command or of a machine's state over HTTP, as that of a user, as a
+/// users file and as a Host header: the first byte selects the command. An accepted command must be
+/// an allowed one of that name, a refusal must have a reason, and only numbers and localhost are
+/// names of this host.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orbwatch::app;
   if (size == 0) return 0;
@@ -35,5 +45,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_localhost = text.size() >= 9 && ::strncasecmp(text.data(), "localhost", 9) == 0 &&
                             (text.size() == 9 || text[9] == ':');
   if (web::is_own_host(text, {}) && !is_number && !is_localhost) std::abort();
+  const web::MachineDesk desk({MachineSource::Http, take_state});
+  web::Request state;
+  state.body = text;
+  const int status = desk.take(state).status;
+  if (status != 200 && status != 400) std::abort();
   return 0;
 }

@@ -279,8 +279,8 @@ std::vector<std::string> bulk_topics(std::string_view prefix) {
 
 dds::TopicAccess appliance_access(std::string_view prefix) {
   return {published(prefix),
-          {dds::command_topic(prefix), kDiscovery, std::string(dds::kApplianceTopic),
-           std::string(dds::kThumbnailTopic)}};
+          {dds::command_topic(prefix), dds::machine_state_topic(prefix), kDiscovery,
+           std::string(dds::kApplianceTopic), std::string(dds::kThumbnailTopic)}};
 }
 
 dds::TopicAccess reader_access(std::string_view prefix) {
@@ -288,7 +288,8 @@ dds::TopicAccess reader_access(std::string_view prefix) {
 }
 
 dds::TopicAccess controller_access(std::string_view prefix) {
-  return {{dds::command_topic(prefix), kDiscovery}, published(prefix)};
+  return {{dds::command_topic(prefix), dds::machine_state_topic(prefix), kDiscovery},
+          published(prefix)};
 }
 
 fs::path enclave_folder(const fs::path& keystore, const std::string& name) {

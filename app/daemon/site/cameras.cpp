@@ -105,16 +105,6 @@ std::unique_ptr<hal::Camera> make_camera(
   return camera;
 }
 
-Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const files::Resolved& site) {
-  return simulation::Machine::make(site.site.simulation, hal::Clock::now())
-      .map([&](const auto& machine) {
-        std::vector<std::unique_ptr<hal::Camera>> cameras;
-        for (const auto& camera : site.site.cameras)
-          cameras.push_back(make_camera(camera, machine));
-        return cameras;
-      });
-}
-
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const files::Resolved& site,
                                                  std::size_t index) {
   const files::CameraSettings& settings = site.site.cameras[index];
@@ -135,17 +125,16 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const file
   return *format;
 }
 
-Result<OpenedCameras> open_cameras(const files::Resolved& site) {
-  return make_cameras(site).map([&](std::vector<std::unique_ptr<hal::Camera>> cameras) {
-    OpenedCameras opened;
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const auto format = open_camera(*cameras[i], site, i);
-      opened.absent[i] = !format;
-      opened.formats.push_back(format.value_or(expected_format(site, i)));
-    }
-    opened.cameras = std::move(cameras);
-    return opened;
-  });
+OpenedCameras open_cameras(const files::Resolved& site,
+                           const std::shared_ptr<const simulation::Machine>& machine) {
+  OpenedCameras opened;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    opened.cameras.push_back(make_camera(site.site.cameras[i], machine));
+    const auto format = open_camera(*opened.cameras[i], site, i);
+    opened.absent[i] = !format;
+    opened.formats.push_back(format.value_or(expected_format(site, i)));
+  }
+  return opened;
 }
 
 void add_cameras(pipeline::PipelinePlan& plan, OpenedCameras opened, const files::Resolved& site,

@@ -18,9 +18,6 @@ namespace orbwatch::app::daemon {
 std::unique_ptr<hal::Camera> make_camera(const files::CameraSettings& settings,
                                          const std::shared_ptr<const simulation::Machine>& machine);
 
-/// Makes every camera of the site, none of them opened. Error: the simulated machine.
-Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const files::Resolved& site);
-
 /// Configures a camera of the site, with its controls and those of the first recipe. The fault:
 /// Unplugged, as it is not there or cannot be opened; Refused, one of the controls; WrongFormat, it
 /// delivers what the pipeline cannot use, or another size than the rig's.
@@ -34,8 +31,9 @@ struct OpenedCameras {
   pipeline::CameraSet absent;              ///< those that could not be opened
 };
 
-/// Makes and opens the site's cameras. Error: the files.
-Result<OpenedCameras> open_cameras(const files::Resolved& site);
+/// Makes and opens the site's cameras; simulated ones look into `machine`.
+OpenedCameras open_cameras(const files::Resolved& site,
+                           const std::shared_ptr<const simulation::Machine>& machine);
 
 /// Gives the pipeline its cameras, joined with their trigger `lines`, and its process inputs.
 void add_cameras(pipeline::PipelinePlan& plan, OpenedCameras opened, const files::Resolved& site,

@@ -17,7 +17,7 @@ namespace {
 
 /// Parts that sinks are made with; each sink takes those that its make_sink() names.
 using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>,
-                             CommandPath, std::shared_ptr<hal::SharedThreads>,
+                             CommandPath, MachinePath, std::shared_ptr<hal::SharedThreads>,
                              std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
 
 /// Null: the settings do not enable it.
@@ -75,8 +75,8 @@ std::string commanders_text(const files::SinkSettings& sinks) {
 }
 
 Interfaces::Interfaces(const files::Resolved& site, const SitePlan& plan, CommandPath commands,
-                       std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
-                       Program program) {
+                       MachinePath machine, std::shared_ptr<hal::SharedThreads> background,
+                       AlignmentSource* alignment, Program program) {
   const files::SinkSettings& sinks = site.site.sinks;
   ApplianceIdentity identity;
   identity.version = version_of(program);
@@ -84,14 +84,9 @@ Interfaces::Interfaces(const files::Resolved& site, const SitePlan& plan, Comman
   PageContext page = page_context(site, plan, alignment, std::move(program));
   page.tables = [this] { return tables(); };
   page.metrics = [this] { return metrics(); };
-  const SinkParts parts{site.names,
-                        published_views(site, plan),
-                        published_cameras(site),
-                        std::move(commands),
-                        std::move(background),
-                        make_fleet(sinks),
-                        std::move(identity),
-                        std::move(page)};
+  const SinkParts parts{site.names,          published_views(site, plan), published_cameras(site),
+                        std::move(commands), std::move(machine),          std::move(background),
+                        make_fleet(sinks),   std::move(identity),         std::move(page)};
   std::size_t next = 0;
   files::for_each_sink(sinks, [&]<class Settings>(const Settings& settings) {
     all_[next++] = made<Settings>(make_sink, settings, parts);

@@ -16,6 +16,7 @@
 #include "app/files/resolve.h"
 #include "app/model/command/command_path.h"
 #include "app/model/configuration/program.h"
+#include "app/model/machine/machine_state.h"
 #include "app/model/sink/sink.h"
 #include "hal/thread/shared_threads.h"
 
@@ -37,11 +38,12 @@ inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<S
 /// tried again while the others work. Thread rule: one owner, apart from faults().
 class Interfaces {
  public:
-  /// Makes the enabled ones. `commands` go to the appliance; `background` encodes; `alignment` is
+  /// Makes the enabled ones. `commands` go to the appliance, states of the machine to `machine`;
+  /// `background` encodes; `alignment` is
   /// the caller's and outlives this; null: none.
   Interfaces(const files::Resolved& site, const SitePlan& plan, CommandPath commands,
-             std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment = nullptr,
-             Program program = {});
+             MachinePath machine, std::shared_ptr<hal::SharedThreads> background,
+             AlignmentSource* alignment = nullptr, Program program = {});
 
   /// The interface of this type; null: it is not enabled.
   template <class Wanted>

@@ -217,9 +217,10 @@ class ManualWriter {
     return "none";
   }
   template <std::size_t N>
-  static std::string show(const std::array<double, N>&) {
-    return "";
+  static std::string show(const std::array<double, N>& values) {
+    return show(std::vector<double>(values.begin(), values.end()));
   }
+  static std::string show(const optics::Vec3& v) { return show(std::array{v.x, v.y, v.z}); }
 
   std::string path_;
   std::string heading_;

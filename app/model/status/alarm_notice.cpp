@@ -58,6 +58,8 @@ std::vector<Reading> notice_readings(const AlarmNotice& notice, const StatusName
        names.region(notice.recipe, notice.region)},
       {"recipe", static_cast<double>(notice.recipe)},
       {"frame_set", static_cast<double>(notice.frame_set)},
+      {"part", signals::kNotValid, {}, notice.part.text()},
+      {"layer", notice.layer},
   };
 }
 

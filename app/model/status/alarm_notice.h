@@ -21,7 +21,9 @@ struct AlarmNotice {
   std::uint64_t frame_set = 0;  ///< the newest one at that time
   /// Exposure start of that frame set; the time of the event if there is none.
   hal::TimePoint stamp{};
-  Giver by{};  ///< origin of an acknowledgement
+  Giver by{};                         ///< origin of an acknowledgement
+  PartName part{};                    ///< that the machine made at that time; empty: not known
+  double layer = signals::kNotValid;  ///< of it
 };
 
 // All reentrant.
@@ -35,8 +37,8 @@ std::string alarm_name(const AlarmNotice& notice, const StatusNames& names);
 /// The event in one line: "weld: hot_spot_width raised, high alarm, 3.2 mm".
 std::string event_text(const AlarmNotice& notice, const StatusNames& names);
 
-/// alarm, event, state, level, value, signal, region, recipe, frame_set; more may be appended.
-/// Their texts are valid as long as `names`.
+/// alarm, event, state, level, value, signal, region, recipe, frame_set, part, layer; more may be
+/// appended. Their texts are valid as long as `notice` and `names`.
 std::vector<Reading> notice_readings(const AlarmNotice& notice, const StatusNames& names);
 
 }  // namespace orbwatch::app

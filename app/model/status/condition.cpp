@@ -123,6 +123,11 @@ Condition condition_of(const Health& health) {
 /// A stage has figures only; their sum is judged as the system's load.
 Condition condition_of(const StageStatus& /*stage*/) { return {Severity::None, "measured"}; }
 
+Condition condition_of(const MachineStatus& machine) {
+  return {is_fault(machine.quality) ? Severity::Alarm : Severity::None,
+          std::string(operator_text(machine.quality))};
+}
+
 Severity standing_severity(const AlarmStatus& alarm) {
   if (!signals::is_active(alarm.alarm.state)) return Severity::None;
   return std::max(severity_of(alarm.alarm.level), severity_of(alarm.alarm.announced));

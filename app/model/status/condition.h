@@ -46,6 +46,7 @@ Condition condition_of(const RegionStatus& region);
 Condition condition_of(const AlarmStatus& alarm);
 Condition condition_of(const Health& health);
 Condition condition_of(const StageStatus& stage);
+Condition condition_of(const MachineStatus& machine);
 
 /// Severity of an active alarm: that of the announced or the present level, whichever is worse; a
 /// latched alarm counts although its signal is within limits again. None: the alarm is not active.

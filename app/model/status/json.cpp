@@ -15,6 +15,10 @@ void add(Json& object, const Reading& reading) {
     object[name] = reading.text == "true";
     return;
   }
+  if (!reading.text.empty() && !signals::is_valid(reading.value)) {
+    object[name] = reading.text;
+    return;
+  }
   object[name] = to_json(reading.value);
   if (!reading.text.empty()) object[name + "_text"] = reading.text;
 }

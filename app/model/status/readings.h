@@ -22,7 +22,7 @@ struct Reading {
   std::string_view name;
   double value = signals::kNotValid;  ///< NaN: not valid
   std::string_view unit{};            ///< empty: a count, a code or a ratio
-  std::string_view text{};            ///< meaning of a code; "true" or "false" for a flag
+  std::string_view text{};            ///< meaning of a code; "true" or "false" for a flag; a text
 
   bool operator==(const Reading&) const = default;
 };
@@ -45,6 +45,11 @@ Reading reading_of(const FieldInfo& field, Enum code, hal::TimePoint /*now*/) {
   return {field.name, static_cast<double>(code), {}, operator_text(code)};
 }
 
+/// A text: no number, and empty where it is not known.
+inline Reading reading_of(const FieldInfo& field, const PartName& part, hal::TimePoint /*now*/) {
+  return {field.name, signals::kNotValid, {}, part.text()};
+}
+
 /// Calls `visit(Reading)` for every field of a part that describes itself by for_each_field(): the
 /// parts of a Status, and the parts that interfaces add.
 template <class Part, class Visit>
@@ -60,7 +65,8 @@ void for_each_reading(const Part& part, hal::TimePoint now, Visit&& visit) {
 
 /// Part of the appliance to which a list of readings belongs.
 struct Component {
-  std::string_view kind;  ///< "system", "region", "alarm", "camera", "view", "health", "stage"
+  std::string_view kind;  ///< "system", "region", "alarm", "camera", "view", "health", "machine",
+                          ///< "stage"
   std::string name{};     ///< its number from 1 if it has no name; empty if it is the only one
 
   bool operator==(const Component&) const = default;
@@ -96,13 +102,14 @@ void for_each_component(const StatusReport& report, Visit&& visit) {
     visit(Component{"view", name_or_number(report.names.view(i), i)}, s.views[i]);
   }
   visit(Component{"health"}, s.health);
+  if (s.machine.quality != MachineQuality::NotConfigured) visit(Component{"machine"}, s.machine);
   for (std::size_t i = 0; i < s.stages.size(); ++i) {
     visit(Component{"stage", std::string(name_of(static_cast<Stage>(i)))}, s.stages[i]);
   }
 }
 
-/// A component with its readings. Their texts are views, of static lists unless the producer states
-/// another owner.
+/// A component with its readings. Their texts are views, of static lists or of the status unless
+/// the producer states another owner.
 struct ComponentReadings {
   Component component;
   std::vector<Reading> readings;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "app/model/machine/machine_status.h"
 #include "app/model/status/field.h"
 #include "app/model/status/health.h"
 #include "app/model/status/watch_status.h"
@@ -277,6 +278,7 @@ struct Status : SystemStatus {
   std::array<AlarmStatus, signals::kMaxAlarms> alarms;
   std::array<RegionStatus, signals::kMaxRegions> regions;
   Health health;
+  MachineStatus machine;                    ///< at the exposure of the frame set
   std::array<StageStatus, kStages> stages;  ///< indexed by Stage
 };
 

@@ -11,6 +11,7 @@
 
 #include "app/model/command/command_path.h"
 #include "app/model/fleet/appliance_notice.h"
+#include "app/model/machine/machine_state.h"
 #include "app/model/sink/published.h"
 #include "app/model/sink/sink.h"
 #include "app/model/status/status_report.h"
@@ -91,6 +92,6 @@ std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& 
                                 const CommandPath& commands,
                                 const std::shared_ptr<hal::SharedThreads>& background,
                                 const ApplianceIdentity& identity,
-                                const std::shared_ptr<Fleet>& fleet);
+                                const std::shared_ptr<Fleet>& fleet, const MachinePath& machine);
 
 }  // namespace orbwatch::app

@@ -29,7 +29,7 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
                  Addresses addresses, std::shared_ptr<CommandRecord> record,
                  const std::shared_ptr<hal::SharedThreads>& threads, ApplianceIdentity identity,
                  std::shared_ptr<Fleet> fleet, std::vector<PublishedView> views,
-                 std::vector<PublishedCamera> cameras)
+                 std::vector<PublishedCamera> cameras, MachinePath machine)
     : settings_(std::move(settings)),
       names_(std::move(names)),
       threads_(threads),
@@ -42,6 +42,9 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
       takes_commands_(takes_commands(settings_) && handler),
       record_(std::move(record)),
       commands_(settings_.prefix, std::move(handler), *record_, [this] { thread_.wake(); }) {
+  if (machine.source == MachineSource::Dds) {
+    machine_.emplace(settings_.prefix, std::move(machine.handler));
+  }
   views.resize(names_.views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     views_.push_back(std::make_unique<ViewTopics>(settings_, names_.views[i], views[i], threads));
@@ -116,6 +119,7 @@ Result<> DdsSink::join() {
       .and_then([&] { return selected_info_.open(entity); })
       .and_then([&] { return status_topics_.open(entity); })
       .and_then([&] { return takes_commands_ ? commands_.open(entity) : Result<>(); })
+      .and_then([&] { return machine_ ? machine_->open(entity) : Result<>(); })
       .and_then([&] { return discovery_.open(entity, settings_.ros); })
       .and_then([&] { return announce_node(); })
       .and_then([&] { return watch_types(); });
@@ -143,17 +147,24 @@ std::vector<const TopicWriter*> DdsSink::writers() const {
   return all;
 }
 
+std::vector<const TopicReader*> DdsSink::readers() const {
+  std::vector<const TopicReader*> all;
+  if (takes_commands_) all.push_back(&commands_.requests());
+  if (machine_) all.push_back(&machine_->states());
+  return all;
+}
+
 Result<> DdsSink::announce_node() {
-  std::vector<dds_entity_t> handles, readers;
-  for (const TopicWriter* writer : writers()) handles.push_back(writer->get());
-  if (takes_commands_) readers.push_back(commands_.requests().get());
-  return discovery_.announce(handles, readers);
+  std::vector<dds_entity_t> written, read;
+  for (const TopicWriter* writer : writers()) written.push_back(writer->get());
+  for (const TopicReader* reader : readers()) read.push_back(reader->get());
+  return discovery_.announce(written, read);
 }
 
 Result<> DdsSink::watch_types() {
   std::map<std::string, std::string> types;
   for (const TopicWriter* writer : writers()) types[writer->name()] = writer->type_name();
-  if (takes_commands_) types[commands_.requests().name()] = commands_.requests().type_name();
+  for (const TopicReader* reader : readers()) types[reader->name()] = reader->type_name();
   return type_watch_.open(participant_.entity(), std::move(types));
 }
 
@@ -163,6 +174,7 @@ void DdsSink::leave() {
   type_watch_.close();
   discovery_.close();
   commands_.close();
+  if (machine_) machine_->close();
   for (const auto& view : views_) view->close();  // before selected_, because they write to it, too
   for (const auto& camera : cameras_) camera->close();
   selected_.close();
@@ -348,14 +360,14 @@ std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& 
                                 const CommandPath& commands,
                                 const std::shared_ptr<hal::SharedThreads>& background,
                                 const ApplianceIdentity& identity,
-                                const std::shared_ptr<Fleet>& fleet) {
+                                const std::shared_ptr<Fleet>& fleet, const MachinePath& machine) {
   if (!settings.enabled) return nullptr;
   ApplianceIdentity own = identity;
   own.name = settings.name;
   own.prefix = settings.prefix;
   return std::make_unique<dds::DdsSink>(settings, names, commands.handler, dds::network_addresses,
                                         commands.record, background, std::move(own), fleet, views,
-                                        cameras);
+                                        cameras, machine);
 }
 
 }  // namespace orbwatch::app

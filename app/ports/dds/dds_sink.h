@@ -14,6 +14,7 @@
 #include "app/ports/dds/commands/command_service.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/fleet/fleet_member.h"
+#include "app/ports/dds/machine/machine_state_reader.h"
 #include "app/ports/dds/participant/network_addresses.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/pictures/camera_topics.h"
@@ -46,13 +47,15 @@ class DdsSink final : public Sink {
   /// topic part and the frame_id of its images. `handler` executes commands, on a thread of the
   /// sink; without a handler there is no command topic. `addresses` are checked once a second.
   /// `identity` and `fleet`: see FleetMember. `views` and `cameras` are in the order of `names`;
-  /// missing ones are published with the defaults.
+  /// missing ones are published with the defaults. `machine` gets the states of the machine if DDS
+  /// is their source.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
           Addresses addresses = network_addresses,
           std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
           const std::shared_ptr<hal::SharedThreads>& threads = hal::SharedThreads::alone(),
           ApplianceIdentity identity = {}, std::shared_ptr<Fleet> fleet = nullptr,
-          std::vector<PublishedView> views = {}, std::vector<PublishedCamera> cameras = {});
+          std::vector<PublishedView> views = {}, std::vector<PublishedCamera> cameras = {},
+          MachinePath machine = {});
   ~DdsSink() override;
 
   /// Starts the sink's thread. Does nothing when disabled or running. Errors: an invalid domain or
@@ -83,6 +86,7 @@ class DdsSink final : public Sink {
 
   Result<> check() const;
   std::vector<const TopicWriter*> writers() const;
+  std::vector<const TopicReader*> readers() const;
   Result<> join();
   Result<> announce_node();
   Result<> watch_types();
@@ -133,6 +137,7 @@ class DdsSink final : public Sink {
   const bool takes_commands_;
   const std::shared_ptr<CommandRecord> record_;
   CommandService commands_;
+  std::optional<MachineStateReader> machine_;  ///< set if this is the source of states
 };
 
 }  // namespace orbwatch::app::dds

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/model/command/command_path.h"
+#include "app/model/machine/machine_state.h"
 #include "app/model/sink/listening_port.h"
 #include "app/model/sink/sink.h"
 #include "app/ports/modbus/server/access_list.h"
@@ -131,6 +132,7 @@ inline std::vector<ListeningPort> listening_ports(const ModbusSettings& settings
   return {{ModbusSettings::kName, "port", settings.address, settings.port}};
 }
 
-std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands);
+std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands,
+                                const MachinePath& machine);
 
 }  // namespace orbwatch::app

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/ports/modbus/machine_registers.h"
 #include "app/ports/modbus/map/register_table.h"
 #include "hal/socket_address.h"
 
@@ -26,8 +27,11 @@ std::string quoted(const std::vector<std::string>& texts) {
 }  // namespace
 
 ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler,
-                       std::shared_ptr<CommandRecord> record)
-    : settings_(std::move(settings)), handler_(std::move(handler)), record_(std::move(record)) {}
+                       std::shared_ptr<CommandRecord> record, MachinePath machine)
+    : settings_(std::move(settings)),
+      handler_(std::move(handler)),
+      machine_(std::move(machine)),
+      record_(std::move(record)) {}
 
 ModbusSink::~ModbusSink() { stop(); }
 
@@ -46,7 +50,7 @@ Result<> ModbusSink::make_responder() {
   plc_ = std::make_unique<modbus::PlcHandshake>(
       *record_, handler_, std::chrono::duration_cast<hal::Clock::duration>(plc_timeout), start_);
   auto responder = modbus::Responder::create(
-      map_, [this](const modbus::Write& registers) { write(registers); },
+      map_, [this](const modbus::Write& registers) { return write(registers); },
       [this] { return process_image(); });
   if (!responder) return tl::unexpected(responder.error());
   responder_ = std::move(*responder);
@@ -190,11 +194,16 @@ void ModbusSink::accept(const Status& status) {
 
 int ModbusSink::port() const { return tcp_ ? tcp_->port() : 0; }
 
-void ModbusSink::write(const modbus::Write& write) {
+std::optional<modbus::Exception> ModbusSink::write(const modbus::Write& write) {
+  if (modbus::writes_machine_state(write.range)) {
+    const auto refused = modbus::take_machine_state(write, map_, machine_);
+    if (refused) return refused;
+  }
   const std::uint32_t acknowledged = plc_->write(write, map_, hal::Clock::now());
   if (plc_->has_command()) command_thread_.wake();
   const std::lock_guard lock(mutex_);
   if (acknowledged != 0) results_.acknowledge(acknowledged);
+  return std::nullopt;
 }
 
 modbus::ProcessImage ModbusSink::process_image() const {
@@ -230,9 +239,10 @@ std::string commanders(const ModbusSettings& settings) {
   return text;
 }
 
-std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands) {
+std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands,
+                                const MachinePath& machine) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<ModbusSink>(settings, commands.handler, commands.record);
+  return std::make_unique<ModbusSink>(settings, commands.handler, commands.record, machine);
 }
 
 }  // namespace orbwatch::app

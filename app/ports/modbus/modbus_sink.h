@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/model/command/command.h"
+#include "app/model/machine/machine_state.h"
 #include "app/model/sink/sink.h"
 #include "app/ports/modbus/map/process_image.h"
 #include "app/ports/modbus/map/register_map.h"
@@ -31,9 +32,10 @@ namespace orbwatch::app {
 /// thread-safe, port() is for the thread of start().
 class ModbusSink final : public Sink {
  public:
-  /// `handler` is called on the sink's threads.
+  /// The handlers of commands and of the machine's states are called on the sink's threads.
   ModbusSink(ModbusSettings settings, CommandHandler handler,
-             std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>());
+             std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
+             MachinePath machine = {});
   ~ModbusSink() override;
 
   /// Error: address or port cannot be used; the serial line is then served already. A serial line
@@ -63,11 +65,12 @@ class ModbusSink final : public Sink {
   Result<> open_tcp();
   Result<> open_serial_line();
   modbus::ProcessImage process_image() const;
-  void write(const modbus::Write& write);
+  std::optional<modbus::Exception> write(const modbus::Write& write);
   void report_forbidden(int socket);
 
   const ModbusSettings settings_;
   const CommandHandler handler_;
+  const MachinePath machine_;
   const std::shared_ptr<CommandRecord> record_;
   const modbus::RegisterMap map_;
   modbus::ServerCounters counters_;

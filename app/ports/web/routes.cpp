@@ -17,6 +17,7 @@
 #include "app/ports/web/interfaces/interface_routes.h"
 #include "app/ports/web/log/log_routes.h"
 #include "app/ports/web/look_around/look_around.h"
+#include "app/ports/web/machine/machine_desk.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
 #include "app/ports/web/status/openapi.h"
@@ -228,11 +229,12 @@ std::vector<Route> plant_routes(const RouteOwners& of) {
   };
 }
 
-/// One route for each of kCommands.
+/// One route for each of kCommands, and one for the states of the machine.
 std::vector<Route> command_routes(const RouteOwners& of) {
   std::vector<Route> routes;
-  routes.reserve(kCommands.size());
+  routes.reserve(kCommands.size() + 1);
   for (const CommandInfo& info : kCommands) routes.push_back(command_route(info, of.commands));
+  routes.push_back(machine_state_route(of.machine));
   return routes;
 }
 

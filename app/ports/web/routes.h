@@ -17,6 +17,7 @@ class HistoryRoutes;
 class InterfaceRoutes;
 class LogRoutes;
 class LookAround;
+class MachineDesk;
 class PixelRoute;
 class RecipeRoutes;
 class StatusRoutes;
@@ -41,6 +42,7 @@ struct RouteOwners {
   InterfaceRoutes* interfaces = nullptr;
   FleetRoutes* fleet = nullptr;
   CommandDesk* commands = nullptr;
+  const MachineDesk* machine = nullptr;
 };
 
 /// The whole HTTP interface without the page's files: a line for each route, and one for all

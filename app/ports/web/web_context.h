@@ -8,6 +8,7 @@
 
 #include "app/model/command/command_path.h"
 #include "app/model/configuration/program.h"
+#include "app/model/machine/machine_state.h"
 #include "app/model/sink/interface_metric.h"
 #include "app/model/sink/interface_table.h"
 #include "app/model/sink/published.h"
@@ -45,6 +46,7 @@ struct WebContext : PageContext {
   CommandPath commands;
   std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
   std::shared_ptr<Fleet> fleet = nullptr;          ///< who is heard over DDS; null: nobody
+  MachinePath machine = {};                        ///< of states that scripts send
 };
 
 }  // namespace orbwatch::app

@@ -12,6 +12,7 @@
 #include "app/certificates/dates.h"
 #include "app/model/command/command_path.h"
 #include "app/model/fleet/appliance_notice.h"
+#include "app/model/machine/machine_state.h"
 #include "app/model/sink/listening_port.h"
 #include "app/model/sink/published.h"
 #include "app/model/sink/sink.h"
@@ -189,6 +190,7 @@ std::unique_ptr<Sink> make_sink(const WebSettings& settings, const StatusNames& 
                                 const std::vector<PublishedView>& views,
                                 const CommandPath& commands,
                                 const std::shared_ptr<hal::SharedThreads>& background,
-                                const std::shared_ptr<Fleet>& fleet, const PageContext& page);
+                                const std::shared_ptr<Fleet>& fleet, const PageContext& page,
+                                const MachinePath& machine);
 
 }  // namespace orbwatch::app

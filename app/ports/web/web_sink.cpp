@@ -36,6 +36,7 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
           [this](const ViewPtr& view, std::uint64_t number) { pixels_.show(view, number); },
           access_, server_counts_),
       commands_(context.commands, list_, access_, audit_),
+      machine_(context.machine),
       look_around_(context.names, context.views, balls_.all(), context.background),
       alignment_(context.names.cameras, context.alignment),
       recipe_(context.recipes, {context.ball, context.scene}, [this] { return status_.recipe(); }),
@@ -56,7 +57,7 @@ std::vector<web::Route> WebSink::make_routes() {
   std::vector<web::Route> routes =
       web::routes_of({&status_, &streams_, &list_, &pixels_, &desk_, &access_changes_,
                       &look_around_, &configuration_, &file_changes_, &log_, &alignment_, &recipe_,
-                      &history_, &interfaces_, &fleet_, &commands_});
+                      &history_, &interfaces_, &fleet_, &commands_, &machine_});
   std::ranges::move(web::page_routes(), std::back_inserter(routes));
   return routes;
 }
@@ -161,10 +162,11 @@ std::unique_ptr<Sink> make_sink(const WebSettings& settings, const StatusNames& 
                                 const std::vector<PublishedView>& views,
                                 const CommandPath& commands,
                                 const std::shared_ptr<hal::SharedThreads>& background,
-                                const std::shared_ptr<Fleet>& fleet, const PageContext& page) {
+                                const std::shared_ptr<Fleet>& fleet, const PageContext& page,
+                                const MachinePath& machine) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<WebSink>(settings,
-                                   WebContext{page, names, views, commands, background, fleet});
+  return std::make_unique<WebSink>(
+      settings, WebContext{page, names, views, commands, background, fleet, machine});
 }
 
 }  // namespace orbwatch::app

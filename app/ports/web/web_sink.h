@@ -22,6 +22,7 @@
 #include "app/ports/web/log/log_routes.h"
 #include "app/ports/web/look_around/ball_pictures.h"
 #include "app/ports/web/look_around/look_around.h"
+#include "app/ports/web/machine/machine_desk.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
 #include "app/ports/web/status/status_routes.h"
@@ -79,6 +80,7 @@ class WebSink final : public Sink {
   web::BallPictures balls_;
   web::StreamRoutes streams_;
   web::CommandDesk commands_;
+  web::MachineDesk machine_;
   web::LookAround look_around_;
   web::AlignRoutes alignment_;
   web::RecipeRoutes recipe_;

@@ -51,5 +51,21 @@ TEST_F(DaemonPlc, TriggersMeasuresAndTakesResults) {
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
+TEST_F(DaemonPlc, SeesTheToolWhereItIsAtEachExposure) {
+  Subprocess daemon = start(write_config(small_machine() + "[machine]\nsource = \"modbus\"\n"));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 5; })) << daemon.output();
+  EXPECT_EQ(read("machine_quality"), 3);  // no state has arrived
+  const std::string said = run("machine_controller.py", {"300"});
+  int compared = 0;
+  double p90 = 100, p99 = 100;
+  std::sscanf(said.c_str(), "compared %d p90 %lf p99 %lf", &compared, &p90, &p99);
+  EXPECT_EQ(compared, 300);
+  // The tests of the follower judge 99 of 100, without a scheduler between the clocks.
+  EXPECT_LE(p90, 2) << said;
+  EXPECT_NE(read("fault_bits") & 1 << 8, 0);
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
 }  // namespace
 }  // namespace orbwatch::tests

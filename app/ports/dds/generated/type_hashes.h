@@ -33,6 +33,8 @@ inline constexpr std::array kTypeHashes{
              "RIHS01_d5bfe84cd965434837076841564d4abd97d15fa7256c56392aea655fb891349a"},
     TypeHash{"orbwatch_msgs::msg::dds_::Figure_",
              "RIHS01_05990ddf8cd3157538d46edf6988b40c524ea136c940dddc07681dc04c0fc7b2"},
+    TypeHash{"orbwatch_msgs::msg::dds_::MachineState_",
+             "RIHS01_139a39e6c2c7044446813c1fd469138ac98995f13f192b033e18edbdab0646e2"},
     TypeHash{"orbwatch_msgs::msg::dds_::ProcessState_",
              "RIHS01_21bc9d345313d44da760e364ce40241ebcc8b10fa0cc693db5af25395d9c9f8d"},
     TypeHash{"orbwatch_msgs::msg::dds_::Thumbnail_",

@@ -47,6 +47,12 @@ Qos event_qos() {
 
 Qos command_qos() { return newest_reliably(DDS_DURABILITY_VOLATILE, kCommandDepth); }
 
+Qos machine_state_qos() {
+  Qos qos = command_qos();
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  return qos;
+}
+
 void show_order_of_calls() {
   static std::mutex mutex;
   const std::lock_guard passes_the_order_on(mutex);

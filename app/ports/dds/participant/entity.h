@@ -59,6 +59,8 @@ inline constexpr std::int32_t kEventDepth = 64;
 /// QoS of commands and their results: reliable, volatile.
 Qos command_qos();
 inline constexpr std::int32_t kCommandDepth = 16;
+/// QoS of the reader of machine states: best effort, which writers of either kind match; volatile.
+Qos machine_state_qos();
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{100};
 
 /// Declares to a race detector that Cyclone DDS calls a listener only between its creation and its

@@ -25,6 +25,7 @@ inline std::string ros_topic(std::string_view prefix, std::string_view name) {
 ///   rt/<prefix>/event                         events
 ///   rt/<prefix>/command                       requests to orbwatch
 ///   rt/<prefix>/command_result                answers to the requests
+///   rt/<prefix>/machine_state                 states of the machine, to orbwatch
 ///   rt/orbwatch_appliance                     appliances of the domain, regardless of prefix
 ///   rt/orbwatch_thumbnail                     thumbnails of their views
 inline std::string image_topic(std::string_view prefix, std::string_view view) {
@@ -51,6 +52,10 @@ inline std::string event_topic(std::string_view prefix) { return ros_topic(prefi
 inline std::string command_topic(std::string_view prefix) { return ros_topic(prefix, "command"); }
 inline std::string command_result_topic(std::string_view prefix) {
   return ros_topic(prefix, "command_result");
+}
+
+inline std::string machine_state_topic(std::string_view prefix) {
+  return ros_topic(prefix, "machine_state");
 }
 
 inline constexpr std::string_view kApplianceTopic = "rt/orbwatch_appliance";

@@ -169,6 +169,8 @@ std::vector<Bit> fault_bits() {
       {"commands_not_recorded",
        "The state folder is not usable: after a restart the first command is not executed",
        [](I image) { return image.live.status.health.commands_recorded == 0; }},
+      {"machine_unknown", "The machine's states are missing or stale: see its register quality",
+       [](I image) { return is_fault(image.live.status.machine.quality); }},
   };
   bits.resize(kFirstCameraFaultBit);
   append(bits, kMaxCameras, "camera_#", "Camera # has a fault: see its fault register",

@@ -17,13 +17,20 @@ namespace orbwatch::app::modbus {
 inline constexpr Quantity kWord{"", 1, 0, 65535};
 inline constexpr Quantity kDoubleWord{"", 1, 0, 4294967295};
 
+/// Registers of a part's name.
+inline constexpr int kPartWords = PartName::kMost / 2;
+
 /// Number of registers that all fields of a part occupy; 32-bit values are at even places.
 template <class Part>
 constexpr int registers_of() {
   int next = 0;
   for_each_field(std::type_identity<Part>{}, [&next](const auto& field) {
     using Value = std::remove_cvref_t<std::invoke_result_t<decltype(field.get), const Part&>>;
-    next = type_of<Value>() == Type::Uint ? next + 1 : next + next % 2 + 2;
+    if constexpr (std::is_same_v<Value, PartName>) {
+      next += kPartWords;
+    } else {
+      next = type_of<Value>() == Type::Uint ? next + 1 : next + next % 2 + 2;
+    }
   });
   return next;
 }
@@ -76,9 +83,20 @@ class Block {
     return *this;
   }
 
-  /// A described field: type and range follow from the type of its value.
+  /// A described field.
   template <class Get>
   Block& field(const Field<Get>& field) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<Get, const Part&>>;
+    if constexpr (std::is_same_v<Value, PartName>) {
+      return words(field);
+    } else {
+      return number(field);
+    }
+  }
+
+  /// A described number: type and range follow from the type of its value.
+  template <class Get>
+  Block& number(const Field<Get>& field) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Get, const Part&>>;
     Quantity quantity = field;
     std::string description(field.description);
@@ -93,6 +111,18 @@ class Block {
                [field](const Part& part, const ProcessImage& image) {
                  return encoded(std::invoke(field.get, part), quantity_in(part, field), image.now);
                });
+  }
+
+  /// A described name, two bytes a register.
+  template <class Get>
+  Block& words(const Field<Get>& field) {
+    for (int i = 0; i < kPartWords; ++i) {
+      row(Type::Uint, std::string(field.name) + "_" + std::to_string(i), kWord,
+          part_words_text(field.description, i), [field, i](const Part& part, const ProcessImage&) {
+            return part_word(std::invoke(field.get, part).text(), static_cast<std::size_t>(i));
+          });
+    }
+    return *this;
   }
 
   /// Appends all fields of the part.
@@ -113,6 +143,12 @@ class Block {
   Block& written(std::function<void(PlcRegisters&, std::uint32_t)> write) {
     rows_.back().access = Access::ReadWrite;
     rows_.back().write = std::move(write);
+    return *this;
+  }
+
+  /// Allows the newest row, a DINT, to be written as not valid.
+  Block& or_unknown() {
+    rows_.back().may_be_unknown = true;
     return *this;
   }
 

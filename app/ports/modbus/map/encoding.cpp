@@ -20,6 +20,18 @@ std::uint32_t age_code(hal::TimePoint moment, hal::TimePoint now) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(age, 0, kMaxAge));
 }
 
+std::uint16_t part_word(std::string_view text, std::size_t n) {
+  const auto byte = [text](std::size_t at) {
+    return static_cast<unsigned>(at < text.size() ? static_cast<unsigned char>(text[at]) : 0);
+  };
+  return static_cast<std::uint16_t>(byte(2 * n) << 8 | byte(2 * n + 1));
+}
+
+std::string part_words_text(std::string_view description, int n) {
+  return std::string(description) + ", bytes " + std::to_string(2 * n) + " and " +
+         std::to_string(2 * n + 1) + " of UTF-8, the first one high; 0: it is shorter";
+}
+
 std::string listed(const std::vector<CodeText>& codes) {
   std::string text;
   for (const CodeText& code : codes) {

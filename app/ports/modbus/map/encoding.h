@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "app/model/status/field.h"
@@ -54,6 +55,12 @@ std::uint32_t encoded(const Value& value, const Quantity& quantity, hal::TimePoi
     return static_cast<std::uint32_t>(value);
   }
 }
+
+/// Bytes 2n and 2n + 1 of a text, the first one high; 0 beyond its end.
+std::uint16_t part_word(std::string_view text, std::size_t n);
+
+/// Description of register n of a part's name.
+std::string part_words_text(std::string_view description, int n);
 
 /// List for a description: "0 starting; 1 running".
 std::string listed(const std::vector<CodeText>& codes);

@@ -130,6 +130,10 @@ Texts layout_numbers() {
   block("HEALTH", kHealth.begin);
   block("PLC", kPlc.begin);
   block("SERVER", kServer.begin);
+  block("MACHINE", kMachine.begin);
+  block("RESULT MACHINE", kResultMachine.begin);
+  set("STATE", kMachineState.begin);
+  set("STATE COUNT", kWholeMachineState.size());
   block("ALARM SUMMARY", kAlarmSummary.begin);
   series("CAMERAS", kCameras);
   series("VIEWS", kViews);
@@ -199,7 +203,9 @@ Texts tables(const RegisterMap& map) {
           {"rows alarms", input(kAlarms.entry(0))},
           {"rows regions", input(kRegions.entry(0))},
           {"rows more regions", input(kMoreOfRegions.entry(0))},
+          {"rows machine", input(kMachine)},
           {"rows written", row_table(map, Table::Holding, kWritten)},
+          {"rows machine state", row_table(map, Table::Holding, kMachineState)},
           {"commands", command_table()},
           {"fault bits", bit_table(fault_bits())},
           {"codes command results", code_table<CommandResult>()},

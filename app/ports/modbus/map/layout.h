@@ -47,7 +47,9 @@ inline constexpr Section kHealth{80, 124};
 inline constexpr Section kPlc{128, 144};
 inline constexpr Section kServer{144, 200};
 inline constexpr Series kStageParts{200, 16, 328};
-inline constexpr Section kLaterParts{328, 600};
+inline constexpr Section kMachine{328, 408};
+inline constexpr Section kResultMachine{408, 488};
+inline constexpr Section kLaterParts{488, 600};
 inline constexpr Series kCameras{600, 60, 1100};
 inline constexpr Series kViews{1100, 24, 1500};
 inline constexpr Section kAlarmSummary{1500, 1520};
@@ -73,7 +75,11 @@ inline constexpr Section kLaterBits{96, 128};
 inline constexpr Section kActiveBits{128, 192};
 inline constexpr Section kUnacknowledgedBits{192, 256};
 
-/// Holding registers that the PLC writes.
+/// Holding registers that the PLC writes: commands and acknowledgements, and the machine's state.
 inline constexpr Section kWritten{0, 100};
+inline constexpr Section kMachineState{100, 200};
+/// What a write to the machine's state covers at least, so that its values belong together; values
+/// appended later may be left out.
+inline constexpr Section kWholeMachineState{100, 152};
 
 }  // namespace orbwatch::app::modbus

@@ -5,9 +5,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "app/model/command/command.h"
+#include "app/model/machine/machine_values.h"
+#include "app/model/machine/part_name.h"
 #include "app/model/status/status.h"
 
 /// Data from which one request is answered: the model's status, and the parts that this interface
@@ -91,9 +94,26 @@ struct CommandRegisters {
   std::uint16_t last_command = 0;  ///< code of the command acknowledged last; 0: none yet
 };
 
+/// State of the machine in registers, as a PLC writes it.
+struct MachineRegisters {
+  /// clock_seconds of a controller that sends no clock.
+  static constexpr std::uint32_t kNoClock = 0xffffffff;
+  /// A value that is not known, as in every DINT of the map.
+  static constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+
+  std::array<std::uint16_t, PartName::kMost / 2> part{};  ///< two bytes of UTF-8 each, zero-padded
+  std::uint32_t clock_seconds = kNoClock;
+  std::uint32_t clock_microseconds = 0;
+  std::uint32_t sequence = 0;
+  std::array<std::int32_t, kMachineValues.size()> values;  ///< value / its scale
+
+  MachineRegisters() { values.fill(kUnknown); }
+};
+
 /// Holding registers written by PLCs.
 struct PlcRegisters {
   CommandRegisters command;
+  MachineRegisters machine;
   std::uint16_t heartbeat = 0;
   /// Number of the result acknowledged by the present request; 0: none.
   std::uint32_t result_acknowledged = 0;

@@ -48,7 +48,8 @@ std::vector<Row> all_rows() {
   add_region_rows(input);
   add_discrete_rows(discrete);
   add_written_rows(rows);
-  reserve_gaps(rows, kWritten.end);
+  add_machine_state_rows(rows);
+  reserve_gaps(rows, kMachineState.end);
   reserve_gaps(input, kResults.end);
   reserve_gaps(discrete, kUnacknowledgedBits.end);
   for (std::vector<Row>* table : {&input, &discrete}) {

@@ -37,6 +37,7 @@ struct Row {
   /// Value in the unit = register * scale; writes outside the range are refused.
   Quantity quantity{};
   std::string description{};
+  bool may_be_unknown = false;  ///< a DINT that may be written as not valid
 
   /// The register's content; 16-bit values in the low half. Empty: reserved.
   std::function<std::uint32_t(const ProcessImage& image)> read{};

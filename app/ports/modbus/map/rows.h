@@ -13,5 +13,6 @@ void add_discrete_rows(std::vector<Row>& rows);
 void add_status_rows(std::vector<Row>& rows);  ///< all input registers except regions
 void add_region_rows(std::vector<Row>& rows);
 void add_written_rows(std::vector<Row>& rows);
+void add_machine_state_rows(std::vector<Row>& rows);
 
 }  // namespace orbwatch::app::modbus

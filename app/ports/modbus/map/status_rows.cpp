@@ -17,6 +17,8 @@ static_assert(registers_of<CameraStatus>() <= kCameras.stride);
 static_assert(registers_of<ViewStatus>() <= kViews.stride);
 static_assert(registers_of<AlarmStatus>() <= kAlarms.stride);
 static_assert(registers_of<StageStatus>() <= kStageParts.stride);
+static_assert(registers_of<MachineStatus>() <= kMachine.size() &&
+              kResultMachine.size() == kMachine.size());
 static_assert(kCameras.has_room_for(kMaxCameras) && kViews.has_room_for(kMaxViews) &&
               kStageParts.has_room_for(kStages) && kAlarms.has_room_for(signals::kMaxAlarms));
 static_assert(signals::kMaxAlarms <= 32,
@@ -142,6 +144,11 @@ void add_status_rows(std::vector<Row>& rows) {
           return p.live.status.stages[i];
         });
   }
+  add_part<MachineStatus>(
+      rows, kMachine, "machine_", [](I p) -> auto& { return p.live.status.machine; });
+  add_part<MachineStatus>(
+      rows, kResultMachine, "result_machine_",
+      [](I p) -> auto& { return p.result.status.machine; });
   add_parts(rows, kCameras, "camera", 0, &Status::cameras, &Status::camera_count);
   add_parts(rows, kViews, "view", 0, &Status::views);
   add_alarm_summary(rows);

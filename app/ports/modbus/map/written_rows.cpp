@@ -72,4 +72,48 @@ void add_written_rows(std::vector<Row>& rows) {
            [](P plc, I) { return plc.command.last_command; });
 }
 
+void add_machine_state_rows(std::vector<Row>& rows) {
+  using P = const PlcRegisters&;
+  using I = const ProcessImage&;
+  using Plc = PlcRegisters;
+  using Value = std::uint32_t;
+  Block<PlcRegisters> block(
+      rows, Table::Holding, kMachineState, "state_",
+      [](I image) -> auto& { return image.written; });
+  for (std::size_t i = 0; i < MachineRegisters().part.size(); ++i) {
+    block
+        .row(Type::Uint, "part_" + std::to_string(i), kWord,
+             part_words_text("Name of the part", static_cast<int>(i)),
+             [i](P plc, I) { return plc.machine.part[i]; })
+        .written([i](Plc& plc, Value value) {
+          plc.machine.part[i] = static_cast<std::uint16_t>(value);
+        });
+  }
+  block
+      .row(Type::Udint, "clock_seconds", kDoubleWord,
+           "The controller's clock at the moment of the state, whole seconds since any moment; "
+           "4294967295: it sends none, the state's moment is its arrival less delay_ms",
+           [](P plc, I) { return plc.machine.clock_seconds; })
+      .written([](Plc& plc, Value value) { plc.machine.clock_seconds = value; })
+      .row(Type::Udint, "clock_microseconds", {"us", 1, 0, 999999}, "Microseconds of that second",
+           [](P plc, I) { return plc.machine.clock_microseconds; })
+      .written([](Plc& plc, Value value) { plc.machine.clock_microseconds = value; })
+      .row(Type::Udint, "sequence", kDoubleWord,
+           "Number of the state: a write that repeats the number before is ignored",
+           [](P plc, I) { return plc.machine.sequence; })
+      .written([](Plc& plc, Value value) { plc.machine.sequence = value; });
+  for (std::size_t i = 0; i < kMachineValues.size(); ++i) {
+    const MachineValue& value = kMachineValues[i];
+    block
+        .row(Type::Dint, value.name, value,
+             std::string(value.description) + "; -2147483648: not known",
+             [i](P plc, I) { return plc.machine.values[i]; })
+        .written([i](Plc& plc, Value written) {
+          plc.machine.values[i] = static_cast<std::int32_t>(written);
+        })
+        .or_unknown();
+  }
+  assert(rows.back().address + rows.back().count >= kWholeMachineState.end);
+}
+
 }  // namespace orbwatch::app::modbus

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "app/ports/modbus/map/encoding.h"
+
 namespace orbwatch::app::modbus {
 namespace {
 
@@ -148,8 +150,16 @@ std::optional<Exception> check(const Range& read, const RegisterMap& map) {
   return std::nullopt;
 }
 
+bool writes_machine_state(const Range& range) {
+  return range.table == Table::Holding && range.address < kMachineState.end &&
+         range.address + range.count > kMachineState.begin;
+}
+
 std::optional<Exception> check(const Write& write, const RegisterMap& map) {
   const auto& [table, address, count] = write.range;
+  const bool is_whole =
+      address <= kWholeMachineState.begin && address + count >= kWholeMachineState.end;
+  if (writes_machine_state(write.range) && !is_whole) return Exception::IllegalDataAddress;
   for (int i = 0; i < count;) {
     const Row* row = map.find(table, address + i);
     const bool whole = row && row->address == address + i && i + row->count <= count;
@@ -159,10 +169,13 @@ std::optional<Exception> check(const Write& write, const RegisterMap& map) {
   // The standard's state diagrams check all addresses before any value.
   for (int i = 0; i < count;) {
     const Row* row = map.find(table, address + i);
-    const double value = in_unit(written(write, static_cast<std::size_t>(i), *row), *row);
+    const std::uint32_t code = written(write, static_cast<std::size_t>(i), *row);
+    const bool is_unknown = row->may_be_unknown && code == kNotValidCode;
+    i += row->count;
+    if (is_unknown) continue;
+    const double value = in_unit(code, *row);
     if (value < row->quantity.minimum || value > row->quantity.maximum)
       return Exception::IllegalDataValue;
-    i += row->count;
   }
   return std::nullopt;
 }

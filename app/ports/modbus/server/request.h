@@ -62,7 +62,11 @@ Write resolved(const MaskWrite& mask, const RegisterMap& map, const ProcessImage
 /// Checks a read; an unmapped place gives IllegalDataAddress. Reentrant.
 std::optional<Exception> check(const Range& read, const RegisterMap& map);
 
-/// Checks a write; a read-only place or half of a 32-bit value gives IllegalDataAddress, a value
+/// True: the write concerns the state of the machine. Reentrant.
+bool writes_machine_state(const Range& range);
+
+/// Checks a write; a read-only place, half of a 32-bit value or a part of the machine's state gives
+/// IllegalDataAddress, a value
 /// outside the row's range IllegalDataValue. Reentrant.
 std::optional<Exception> check(const Write& write, const RegisterMap& map);
 

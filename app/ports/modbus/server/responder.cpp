@@ -72,7 +72,9 @@ std::vector<std::uint8_t> Responder::read_write_answer(const Range& read) const 
 std::optional<Exception> Responder::execute(Request request) {
   if (request.mask) request.write = resolved(*request.mask, map_, make_image_());
   if (const auto exception = check_access(request)) return exception;
-  if (request.write) write_(*request.write);
+  if (request.write) {
+    if (const auto exception = write_(*request.write)) return exception;
+  }
   if (request.read) fill_mapping(*request.read, make_image_());
   return std::nullopt;
 }

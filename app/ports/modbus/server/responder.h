@@ -32,7 +32,7 @@ enum class Outcome : std::uint8_t {
 class Responder {
  public:
   using MakeImage = std::function<ProcessImage()>;
-  using WriteRegisters = std::function<void(const Write&)>;
+  using WriteRegisters = std::function<std::optional<Exception>(const Write&)>;
 
   /// `write` executes a checked write on the serving thread; `make_image` is called once per
   /// request, after its write. Errors: no memory.

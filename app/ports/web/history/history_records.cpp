@@ -73,7 +73,8 @@ SentAlarmEvent sent_event(const AlarmHistory::Entry& entry, const StatusNames& n
           unless_empty(names.region(notice.recipe, notice.region)),
           quantity_of(alarm_after(notice)).unit,
           limit_of(notice, recipes),
-          unless_empty(notice.by.name())};
+          unless_empty(notice.by.name()),
+          unless_empty(notice.part.text())};
 }
 
 }  // namespace orbwatch::app::web

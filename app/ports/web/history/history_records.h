@@ -60,6 +60,7 @@ struct SentAlarmEvent {
   std::string_view unit;
   std::optional<double> limit;
   std::optional<std::string> by;
+  std::optional<std::string> part;
 };
 template <class Visitor>
 void visit(Visitor& v, SentAlarmEvent& sent) {
@@ -77,6 +78,8 @@ void visit(Visitor& v, SentAlarmEvent& sent) {
   v.optional("region_text", sent.region, "Name of the region");
   v.required("recipe", notice.recipe, "Number of the recipe");
   v.required("frame_set", notice.frame_set, "Number of the newest frame set at that time");
+  v.required("part", sent.part, "Part that the machine made; null: not known");
+  v.required("layer", notice.layer, "Its layer; null: not known");
   v.required("unit", sent.unit, "Unit of value and limit");
   v.required("limit", sent.limit, "Limit of the level; null: none");
   v.required("by", sent.by, "User who acknowledged; null: none");

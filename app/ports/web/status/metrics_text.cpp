@@ -49,7 +49,9 @@ class Families {
     if (!reading.unit.empty()) family.help += ", " + std::string(reading.unit);
     ClientMetric& metric = family.metric.emplace_back();
     if (!component.name.empty()) metric.label.push_back({"name", std::string(component.name)});
-    metric.untyped.value = reading.value;
+    const bool is_text = !reading.text.empty() && !signals::is_valid(reading.value);
+    if (is_text) metric.label.push_back({"text", std::string(reading.text)});
+    metric.untyped.value = is_text ? 1 : reading.value;
   }
 
   const hal::TimePoint now_;

@@ -29,6 +29,8 @@ Json figure_schema(const FieldInfo& field) {
     figure = code_schema<Value>();
   } else if constexpr (std::is_same_v<Value, bool>) {
     figure = {{"type", "boolean"}};
+  } else if constexpr (std::is_same_v<Value, PartName>) {
+    figure = {{"type", "string"}, {"nullable", true}};
   } else {
     figure = {{"type", "number"}, {"nullable", true}};
   }
@@ -59,6 +61,7 @@ Json status_schema() {
   Status one_of_each;
   one_of_each.region_count = one_of_each.alarm_count = 1;
   one_of_each.camera_count = one_of_each.view_count = 1;
+  one_of_each.machine.quality = MachineQuality::Good;
   const StatusNames no_names;
   Json all = object_schema(
       {{"stamp",
@@ -81,7 +84,8 @@ Json status_schema() {
       properties[kind + "s"] = list_schema(std::move(schema));
       properties[kind + "s"]["description"] = "Figures of each " + kind;
     } else {
-      all["required"].push_back(kind);
+      // Sent only where machine states are configured.
+      if (kind != "machine") all["required"].push_back(kind);
       properties[kind] = std::move(schema);
       properties[kind]["description"] = "Figures of the " + kind;
     }

@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -13,6 +16,7 @@
 #include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/test_views.h"
 #include "tests/support/loopback_dds.h"
+#include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::dds {
@@ -55,6 +59,36 @@ TEST(Examples, ImageSubscriberBuildsByItselfAndReadsAView) {
   camera.join();
   EXPECT_TRUE(read) << printed;
   EXPECT_THAT(printed, testing::ContainsRegex("front 160x90 rgb8, exposed at [0-9]+"));
+}
+
+TEST(Examples, MachinePublisherSendsStatesThatAreTaken) {
+  const orbwatch::tests::TemporaryFolder folder;
+  const std::string build = (folder.path() / "build").string();
+  const auto [made, built] = run("cmake -S " + kExamples + " -B " + build + " && cmake --build " +
+                                 build + " --target machine_publisher");
+  ASSERT_TRUE(built) << made;
+
+  const int domain = 1 + ::getpid() % 100;
+  ::setenv("CYCLONEDDS_URI", orbwatch::tests::loopback_dds().c_str(), 1);
+  ::setenv("ROS_DOMAIN_ID", std::to_string(domain).c_str(), 1);
+  std::promise<MachineState> newest;
+  std::once_flag first;
+  const MachinePath machine{MachineSource::Dds, [&](const MachineState& state) {
+                              std::call_once(first, [&] { newest.set_value(state); });
+                              return check(state);
+                            }};
+  DdsSink sink({.domain = domain}, {{}, {"front"}, {}}, nullptr, network_addresses,
+               std::make_shared<CommandRecord>(), hal::SharedThreads::alone(), {}, nullptr, {}, {},
+               machine);
+  ASSERT_TRUE(sink.start());
+  orbwatch::tests::Subprocess publisher({build + "/machine_publisher"},
+                                        folder.path() / "publisher.log");
+  auto taken = newest.get_future();
+  ASSERT_EQ(taken.wait_for(std::chrono::minutes(1)), std::future_status::ready)
+      << publisher.output();
+  const MachineState state = taken.get();
+  EXPECT_EQ(state.part.text(), "example");
+  EXPECT_NEAR(std::hypot(state.values.x, state.values.y), 40, 1e-9);
 }
 
 TEST(Examples, PythonCanReadTheRosNodes) {

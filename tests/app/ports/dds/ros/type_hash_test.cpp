@@ -15,6 +15,7 @@
 #include "app/ports/dds/generated/diagnostics.h"
 #include "app/ports/dds/generated/event.h"
 #include "app/ports/dds/generated/image.h"
+#include "app/ports/dds/generated/machine_state.h"
 #include "app/ports/dds/generated/participant_entities.h"
 #include "app/ports/dds/generated/process_state.h"
 #include "app/ports/dds/generated/type_hashes.h"
@@ -85,6 +86,8 @@ TEST(TypeHash, OfOurTypesNeverChanges) {
                      "d5bfe84cd965434837076841564d4abd97d15fa7256c56392aea655fb891349a"},
            Published{"orbwatch_msgs/msg/Figure",
                      "05990ddf8cd3157538d46edf6988b40c524ea136c940dddc07681dc04c0fc7b2"},
+           Published{"orbwatch_msgs/msg/MachineState",
+                     "139a39e6c2c7044446813c1fd469138ac98995f13f192b033e18edbdab0646e2"},
            Published{"orbwatch_msgs/msg/ProcessState",
                      "21bc9d345313d44da760e364ce40241ebcc8b10fa0cc693db5af25395d9c9f8d"},
            Published{"orbwatch_msgs/msg/Thumbnail",
@@ -114,7 +117,8 @@ TEST(TypeHash, EveryTopicTypeAnnouncesOne) {
         &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
         &orbwatch_msgs_msg_dds__ProcessState__desc, &orbwatch_msgs_msg_dds__Event__desc,
         &orbwatch_msgs_msg_dds__Command__desc, &orbwatch_msgs_msg_dds__CommandResult__desc,
-        &orbwatch_msgs_msg_dds__Appliance__desc, &orbwatch_msgs_msg_dds__Thumbnail__desc}) {
+        &orbwatch_msgs_msg_dds__MachineState__desc, &orbwatch_msgs_msg_dds__Appliance__desc,
+        &orbwatch_msgs_msg_dds__Thumbnail__desc}) {
     const Qos qos(dds_create_qos());
     const auto announced = announce_type_hash(qos, *type);
     ASSERT_TRUE(announced) << announced.error().message;

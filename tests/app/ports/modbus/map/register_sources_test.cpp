@@ -8,85 +8,16 @@
 #include <vector>
 
 #include "app/ports/modbus/map/bits.h"
-#include "tests/app/ports/modbus/map/registers.h"
+#include "tests/app/ports/modbus/map/full_image.h"
 
 /// Tests that every register depends on its source only.
 namespace orbwatch::app::modbus {
 namespace {
 
 using std::chrono::milliseconds;
+using tests::full_image;
+using tests::Registers;
 using Names = std::set<std::string>;
-
-/// All registers without mirrors, and their names; a "?" marks bits, because words may have the
-/// same names.
-struct Registers {
-  std::vector<std::string> names;
-  std::vector<const Row*> rows;
-
-  Registers() {
-    std::set<std::string> known;
-    for (const Row& row : registers().rows()) {
-      if (is_mirror(row) || !row.read) continue;
-      rows.push_back(&row);
-      names.push_back(row.name + (row.table == Table::Discrete ? "?" : ""));
-      EXPECT_TRUE(known.insert(names.back()).second) << names.back();
-    }
-  }
-
-  std::vector<std::uint32_t> contents(const ProcessImage& image) const {
-    std::vector<std::uint32_t> codes;
-    codes.reserve(rows.size());
-    for (const Row* row : rows) codes.push_back(row->read(image));
-    return codes;
-  }
-};
-
-void measure_something(StampedStatus& stamped, double share) {
-  stamped.utc = std::chrono::microseconds(1'700'000'000'000'100);
-  Status& status = stamped.status;
-  status.result = 3;
-  status.frame_set = 30;
-  status.trigger = 4;
-  status.recipe = 2;
-  status.configuration_checksum = 77;
-  status.process_active = true;
-  status.region_count = signals::kMaxRegions;
-  for (RegionStatus& region : status.regions) {
-    region.quality = Quality::Good;
-    for (const auto& signal : signals::kSignals) {
-      region.signals.*signal.member = signal.minimum + share * (signal.maximum - signal.minimum);
-    }
-    region.signals.hot_spot_present = 1;
-  }
-}
-
-/// An image in which everything is present and works.
-ProcessImage full_image() {
-  ProcessImage image;
-  image.now = hal::TimePoint{} + std::chrono::hours(100);
-  image.server.uptime = 9 * 3600;
-  measure_something(image.live, 0.5);
-  measure_something(image.result, 0.25);
-  image.results.count = 2;
-  image.plc.heartbeat = image.now - milliseconds(20);
-  Status& status = image.live.status;
-  status.state = SystemState::Running;
-  status.stamp = image.now - milliseconds(50);
-  status.camera_count = kMaxCameras;
-  status.view_count = kMaxViews;
-  status.alarm_count = signals::kMaxAlarms;
-  for (CameraStatus& camera : status.cameras) camera.last_frame = image.now - milliseconds(40);
-  for (AlarmStatus& alarm : status.alarms) {
-    alarm.value = 0;
-    alarm.since = image.now - milliseconds(5000);
-  }
-  for (const HealthField& figure : kHealthFigures) {
-    status.health.*figure.get = (figure.minimum + figure.maximum) / 2;
-  }
-  status.health.throttling = 0;
-  status.health.clock_synchronised = status.health.commands_recorded = 1;
-  return image;
-}
 
 std::string numbered(const std::string& thing, std::size_t number, const std::string& what) {
   return thing + "_" + std::to_string(number) + "_" + what;
@@ -136,6 +67,7 @@ class RegisterSources : public testing::Test {
   void expect_cameras_and_views();
   void expect_alarms();
   void expect_health();
+  void expect_machine(const std::string& block, StampedStatus& (*stamped)(ProcessImage&));
   void expect_server_and_plc();
 
   const Registers own_;
@@ -388,6 +320,36 @@ void RegisterSources::expect_health() {
          {"health_clock_synchronised", "clock_synchronised?", "status_bits"});
 }
 
+void RegisterSources::expect_machine(const std::string& block,
+                                     StampedStatus& (*stamped)(ProcessImage&)) {
+  const auto expect_member = [&](const std::string& name, auto change, const Names& more = {}) {
+    expect([&](ProcessImage& image) { change(stamped(image).status.machine); },
+           more + Names{block + name});
+  };
+  using M = MachineStatus&;
+  expect_member(
+      "quality", [](M m) { m.quality = MachineQuality::Stale; },
+      block == "machine_" ? Names{"fault_bits"} : Names{});
+  expect_member("state_age", [](M m) { m.state -= milliseconds(1); });
+  for (std::size_t i = 0; i < PartName::kMost / 2; ++i) {
+    const std::string name =
+        std::string(2 * i, 'x') + "yy" + std::string(PartName::kMost - 2 * i - 2, 'x');
+    expect_member("part_" + std::to_string(i), [&](M m) { m.part = *PartName::make(name); });
+  }
+  for (const MachineValue& value : kMachineValues) {
+    expect_member(std::string(value.name), [&](M m) { m.values.*value.get = value.minimum; });
+  }
+  expect_member("vx", [](M m) { m.vx = 3; });
+  expect_member("vy", [](M m) { m.vy = 3; });
+  expect_member("vz", [](M m) { m.vz = 3; });
+  expect_member("tool_x", [](M m) { m.tool_x = 0.5; });
+  expect_member("tool_y", [](M m) { m.tool_y = 0.5; });
+  expect_member("tool_z", [](M m) { m.tool_z = 0.5; });
+  expect_member("states", [](M m) { ++m.states; });
+  expect_member("refused", [](M m) { ++m.refused; });
+  expect_member("slips", [](M m) { ++m.slips; });
+}
+
 void RegisterSources::expect_server_and_plc() {
   using S = ProcessImage&;
   expect([](S s) { s.live.status.recipe_refused = true; },
@@ -417,6 +379,16 @@ void RegisterSources::expect_server_and_plc() {
   expect([](S s) { ++s.written.command.acknowledged; }, {"acknowledged_sequence"});
   expect([](S s) { s.written.command.result = CommandResult::Busy; }, {"command_result"});
   expect([](S s) { ++s.written.command.last_command; }, {"last_command"});
+  for (std::size_t i = 0; i < MachineRegisters().part.size(); ++i) {
+    expect([i](S s) { ++s.written.machine.part[i]; }, {"state_part_" + std::to_string(i)});
+  }
+  expect([](S s) { ++s.written.machine.clock_seconds; }, {"state_clock_seconds"});
+  expect([](S s) { ++s.written.machine.clock_microseconds; }, {"state_clock_microseconds"});
+  expect([](S s) { ++s.written.machine.sequence; }, {"state_sequence"});
+  for (std::size_t i = 0; i < kMachineValues.size(); ++i) {
+    expect([i](S s) { ++s.written.machine.values[i]; },
+           {"state_" + std::string(kMachineValues[i].name)});
+  }
 }
 
 TEST_F(RegisterSources, EveryRegisterFollowsItsSourceAndNoOther) {
@@ -436,6 +408,8 @@ TEST_F(RegisterSources, EveryRegisterFollowsItsSourceAndNoOther) {
   expect_cameras_and_views();
   expect_alarms();
   expect_health();
+  expect_machine("machine_", live);
+  expect_machine("result_machine_", oldest);
   expect_server_and_plc();
   // Only the version of the map and words for future signals are constant.
   Names constant;

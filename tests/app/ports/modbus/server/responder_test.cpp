@@ -29,7 +29,11 @@ class ResponderTest : public testing::Test {
     image_.server = {
         .answered = 0x0011'0001, .refused = 0x0022'0002, .dropped = 0x0033'0003, .connections = 4};
     auto responder = Responder::create(
-        map_, [this](const Write& write) { apply(write, map_, written_); },
+        map_,
+        [this](const Write& write) -> std::optional<Exception> {
+          apply(write, map_, written_);
+          return refusal_;
+        },
         [this] { return image_; });
     ASSERT_TRUE(responder) << responder.error().message;
     responder_ = std::move(*responder);
@@ -66,6 +70,7 @@ class ResponderTest : public testing::Test {
   RegisterMap map_;
   ProcessImage image_;
   PlcRegisters written_;
+  std::optional<Exception> refusal_;  ///< of the owner of the registers
   std::unique_ptr<Responder> responder_;
   std::unique_ptr<TcpTransport> transport_;
   Outcome answered_ = Outcome::NotSent;
@@ -130,6 +135,16 @@ TEST_F(ResponderTest, ReadingWithAWriteTellsWhatTheWriteHasLedTo) {
   EXPECT_EQ(Bytes(answer.begin() + 9, answer.end()), read(3, row.address, 2))
       << "there is no such result";
   EXPECT_NE(read(3, row.address, 2), (Bytes{0x12, 0x34, 0x56, 0x78}));
+}
+
+TEST_F(ResponderTest, ARefusalOfTheRegistersOwnerIsTheAnswer) {
+  refusal_ = Exception::IllegalDataValue;
+  const auto address = static_cast<std::uint8_t>(tests::address_of("plc_heartbeat"));
+  const Bytes single = exchange(frame({6, 0, address, 0, 1}));
+  EXPECT_EQ(answered_, Outcome::Refused);
+  EXPECT_EQ(Bytes(single.begin() + 7, single.end()), (Bytes{0x86, 3}));
+  const Bytes both = exchange(frame({0x17, 0, address, 0, 1, 0, address, 0, 1, 2, 0, 1}));
+  EXPECT_EQ(Bytes(both.begin() + 7, both.end()), (Bytes{0x97, 3}));
 }
 
 TEST_F(ResponderTest, AnswersItsUnitsOnly) {
