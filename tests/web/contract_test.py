@@ -19,7 +19,8 @@ from appliance import LOOPBACK_DDS, PATIENCE_S, Appliance, eventually, free_port
 PASSWORD, NEXT_PASSWORD = "correct horse battery", "another horse battery"
 COMMAND = "/api/v1/command/"
 # Changes that the audit leaves out, with the reason.
-NOT_AUDITED = {"check_configuration": "changes nothing", "check_recipe": "changes nothing"}
+NOT_AUDITED = {"check_configuration": "changes nothing", "check_recipe": "changes nothing",
+               "machine_state": "a machine sends many a second"}
 RESTARTING = {"restart", "accept_alignment", "revert_alignment"}
 
 MORE_OF_THE_SITE = """
@@ -51,7 +52,8 @@ class WholeAppliance(Appliance):
         site = self.folder / "demo.toml"
         # There is a code for the first password as soon as clients behind a proxy are served.
         text = site.read_text(encoding="utf-8").replace(
-            "[web]\n", '[web]\ntrusted_proxies = ["192.0.2.1"]\n')
+            "[web]\n", '[web]\ntrusted_proxies = ["192.0.2.1"]\n').replace(
+                'source = "simulation"', 'source = "http"')
         site.write_text(text + MORE_OF_THE_SITE.format(modbus_port=free_port()), encoding="utf-8")
         (self.folder / "state").mkdir()
         self.cookie = ""
@@ -230,6 +232,7 @@ class Contract(unittest.TestCase):
                 ("check_configuration", recipe_file), ("try_configuration", recipe_file),
                 ("confirm_configuration", dict), ("check_recipe", limit), ("try_recipe", limit),
                 ("revert_configuration", dict), ("forget_appliances", dict),
+                ("machine_state", lambda: {"layer": 1}),
                 ("set_first_password", lambda: {"code": self.appliance.first_code(),
                                                 "password": PASSWORD}),
                 ("logout", dict), ("login", lambda: {"user": "admin", "password": PASSWORD}),

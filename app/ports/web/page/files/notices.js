@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Header of all pages: the recipe, and what needs a person: alarms that stand or are not acknowledged, cameras
-// that are not aligned, a configuration that is on trial or refused.
+// that are not aligned, a machine whose state is not known, a configuration that is on trial or refused.
 import { raisedAlarms } from "./appliance/alarms.js";
+import { isMachineFault } from "./appliance/faults.js";
 import { element, setText } from "./elements/elements.js";
 import { trialEnds } from "./system/trial_end.js";
 import { texts } from "./texts.js";
@@ -53,14 +54,17 @@ export class Notices {
     this.alarms = notice("process");
     this.alignment = notice("align");
     this.configuration = notice("system");
+    this.machine = notice("system");
     this.trial = new TrialNotice(mayChange);
-    root.append(this.recipe, this.alarms, this.alignment, this.configuration, this.trial.root);
+    root.append(this.recipe, this.alarms, this.alignment, this.configuration, this.machine,
+      this.trial.root);
     recipe.addEventListener("change", () => setText(this.recipe, texts.notices.recipe(recipe.stated)));
     addEventListener("hashchange", () => this.#entitle());
     this.#entitle();
   }
 
-  status({ alarms = [], cameras, system }) {
+  status({ alarms = [], cameras, machine, system }) {
+    show(this.machine, isMachineFault(machine) ? texts.notices.machine : "");
     show(this.configuration, system.configuration_refused ? texts.notices.refused : "");
     this.trial.show(system.trial_left);
     const raised = raisedAlarms(alarms);

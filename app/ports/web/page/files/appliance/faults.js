@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Numbers of MachineQuality in app/model/machine/machine_status.h, which stay the same: no state, stale.
+const kUnknown = [3, 4];
+
+// `machine`: that of the status; undefined: none is configured.
+export const isMachineFault = (machine) => kUnknown.includes(machine?.quality);
+
 // Faults of the cameras that a view is made from.
 export class Faults {
   #texts = new Map(); // fault by camera, of those that have one

@@ -9,6 +9,7 @@ const kPaths = {
   cameras: "M3 7h4l2-3h6l2 3h4v12H3zM12 9a4 4 0 1 0 0 8a4 4 0 0 0 0-8",
   views: "M2 12s4-7 10-7 10 7 10 7-4 7-10 7-10-7-10-7zM12 9a3 3 0 1 0 0 6a3 3 0 0 0 0-6",
   health: "M10 14V5a2 2 0 0 1 4 0v9a4 4 0 1 1-4 0zM12 9v8",
+  machine: "M5 3h14v6l-4 4v4l-3 4-3-4v-4l-4-4zM5 9h14",
   stages: "M12 6a8 8 0 1 0 0 16a8 8 0 0 0 0-16M12 10v4l3 2M9 2h6M12 2v4",
   interfaces: "M9 2v6M15 2v6M6 8h12v3a6 6 0 0 1-12 0zM12 17v5",
   log: "M5 3h14v18H5zM8 8h8M8 12h8M8 16h5",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen at one glance: the view with its regions, key figures and alarms.
-import { element } from "../elements/elements.js";
+// View with its regions, what the machine says, key figures and alarms, for one glance.
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
 import { Alarms, worstOf } from "./alarms.js";
 import { KeyFigures } from "./key_figures.js";
 import { RegionEditor } from "./region_editor.js";
@@ -11,9 +12,10 @@ export class Glance {
   constructor(faults, recipe, descriptions, mayChange, onView, onKey) {
     this.editor = new RegionEditor(recipe, faults, mayChange, onView);
     this.keys = new KeyFigures(descriptions, onKey);
+    this.machine = element("p", { className: "machine" });
     this.alarms = new Alarms(descriptions);
     this.root = element("div", { className: "glance" }, this.editor.root,
-      element("div", {}, this.keys.root, this.alarms.root));
+      element("div", {}, this.machine, this.keys.root, this.alarms.root));
   }
 
   get views() {
@@ -23,7 +25,8 @@ export class Glance {
     this.editor.picture(message);
   }
 
-  status({ alarms = [], regions = [] }, now) {
+  status({ alarms = [], machine, regions = [] }, now) {
+    setText(this.machine, machine ? texts.process.machine(machine) : "");
     this.alarms.show(alarms);
     this.keys.show(regions, alarms, now);
     this.editor.mark(regions.map(({ name }, index) =>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cards with the figures of the status, each with its state in a line.
 import { amountText } from "../elements/amounts.js";
+import { isMachineFault } from "../appliance/faults.js";
 import { Card } from "../elements/card.js";
 import { texts } from "../texts.js";
 import { Components } from "./components.js";
@@ -21,6 +22,8 @@ const kCards = {
   health: { kinds: ["health"],
     state: ({ health }, figures) => [texts.cards.health(kHealth.filter((name) => typeof health[name] === "number")
       .map((name) => [name, amountText(health[name], figures.health[name].unit)])), false] },
+  machine: { kinds: ["machine"],
+    state: ({ machine }) => [machine.quality_text, isMachineFault(machine)] },
 };
 
 export const kKindsOfOverview = Object.values(kCards).flatMap(({ kinds }) => kinds);
@@ -35,6 +38,8 @@ class StatusCard {
   }
 
   status(status) {
+    this.root.hidden = !this.kinds.some((kind) => status[kind]); // no machine is configured
+    if (this.root.hidden) return;
     this.card.say(...this.state(status, this.figures));
     if (!this.card.isOpen) return;
     for (const kind of this.kinds) this.components.show(kind, status[kind]);

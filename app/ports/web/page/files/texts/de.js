@@ -55,6 +55,7 @@ export const texts = {
     notRegistered: (camera) => `${camera} ist nicht registriert`,
     moved: (camera) => `${camera} hat sich seit der Ausrichtung bewegt`,
     refused: "Die Konfiguration ist ungültig: die letzte gültige läuft",
+    machine: "Der Zustand der Maschine ist nicht bekannt",
     trial: (seconds) => `Probelauf einer Konfiguration: Rückkehr in ${seconds} s`,
     recipe: ({ number, name }) => (number === 0 ? "" : `Rezept ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
@@ -151,7 +152,8 @@ export const texts = {
     notWatched: "Diese Kamera wird nicht überwacht; daher ist sie weder zu sehen noch auszurichten; siehe Protokoll.",
   },
   cards: {
-    titles: { state: "Zustand", cameras: "Kameras", views: "Ansichten", health: "Gesundheit", control: "Bedienung" },
+    titles: { state: "Zustand", cameras: "Kameras", views: "Ansichten", health: "Gesundheit",
+      machine: "Maschine", control: "Bedienung" },
     delivering: (count, all) => `${count} von ${all} ${count === 1 ? "liefert" : "liefern"}`,
     live: (count, all) => `${count} von ${all} live`,
     // `figures`: [name, amount] of each.
@@ -332,6 +334,9 @@ export const texts = {
   now: "jetzt",
   fromTo: (low, high) => `${low} bis ${high}`,
   process: {
+    // Of the machine: what is known of each, else "".
+    machine: ({ part, layer, track }) => [part && `Teil ${part}`, layer !== null && `Lage ${layer}`,
+      track !== null && `Spur ${track}`].filter(Boolean).join(" · "),
     keyFigures: "Kennzahlen",
     change: "Bereiche ändern",
     typed: "Grenzwerte eingeben",
@@ -378,6 +383,27 @@ export const texts = {
 
 // Titles of signals and texts of codes by those of the appliance.
 export const words = {
+  "Part": "Teil",
+  "Program": "Programm",
+  "Layer": "Lage",
+  "Track": "Spur",
+  "Tool X": "Werkzeug X",
+  "Tool Y": "Werkzeug Y",
+  "Tool Z": "Werkzeug Z",
+  "Axis A": "Achse A",
+  "Axis B": "Achse B",
+  "Axis C": "Achse C",
+  "Feed": "Vorschub",
+  "Laser power": "Laserleistung",
+  "Powder flow": "Pulverstrom",
+  "Laser on": "Laser ein",
+  "Program running": "Programm läuft",
+  "Triggers sent": "Gesendete Trigger",
+  "no machine states are configured": "keine Maschinenzustände sind konfiguriert",
+  "good: between two states": "gut: zwischen zwei Zuständen",
+  "good: continued from the last two states": "gut: aus den letzten zwei Zuständen fortgesetzt",
+  "no state of the machine has arrived": "noch kein Zustand der Maschine ist angekommen",
+  "stale: the machine's states stopped, its values are not known": "veraltet: die Maschine sendet keine Zustände mehr, ihre Werte sind nicht bekannt",
   "Quality": "Güte",
   "Hot spot present": "Heißer Fleck vorhanden",
   "Hot spot area in the view": "Fläche des heißen Flecks in der Ansicht",

@@ -52,6 +52,7 @@ export const texts = {
     notRegistered: (camera) => `${camera} is not registered`,
     moved: (camera) => `${camera} has moved since its alignment`,
     refused: "The configuration is invalid: the last good one runs",
+    machine: "The machine's state is not known",
     trial: (seconds) => `Trial of a configuration: reverted in ${seconds} s`,
     recipe: ({ number, name }) => (number === 0 ? "" : `Recipe ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
@@ -146,7 +147,8 @@ export const texts = {
     notWatched: "This camera is not watched, so it can be neither shown nor aligned; see the log.",
   },
   cards: {
-    titles: { state: "State", cameras: "Cameras", views: "Views", health: "Health", control: "Control" },
+    titles: { state: "State", cameras: "Cameras", views: "Views", health: "Health",
+      machine: "Machine", control: "Control" },
     delivering: (count, all) => `${count} of ${all} ${all === 1 ? "delivers" : "deliver"}`,
     live: (count, all) => `${count} of ${all} live`,
     // `figures`: [name, amount] of each.
@@ -327,6 +329,9 @@ export const texts = {
   now: "now",
   fromTo: (low, high) => `${low} to ${high}`,
   process: {
+    // Of the machine: what is known of each, else "".
+    machine: ({ part, layer, track }) => [part && `Part ${part}`, layer !== null && `Layer ${layer}`,
+      track !== null && `Track ${track}`].filter(Boolean).join(" · "),
     keyFigures: "Key figures",
     change: "Change regions",
     typed: "Type limits",

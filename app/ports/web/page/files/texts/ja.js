@@ -52,6 +52,7 @@ export const texts = {
     notRegistered: (camera) => `${camera} は登録されていません`,
     moved: (camera) => `${camera} は位置合わせの後に動きました`,
     refused: "設定が無効です。最後の有効な設定で動作しています",
+    machine: "機械の状態が分かりません",
     trial: (seconds) => `設定を試行中: ${seconds} 秒後に元に戻ります`,
     recipe: ({ number, name }) => (number === 0 ? "" : `レシピ ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
@@ -144,7 +145,8 @@ export const texts = {
     notWatched: "このカメラは監視されていないため、表示も位置合わせもできません。ログを見てください。",
   },
   cards: {
-    titles: { state: "状態", cameras: "カメラ", views: "ビュー", health: "健全性", control: "操作" },
+    titles: { state: "状態", cameras: "カメラ", views: "ビュー", health: "健全性",
+      machine: "機械", control: "操作" },
     delivering: (count, all) => `${all} 台中 ${count} 台が正常`,
     live: (count, all) => `${all} 件中 ${count} 件が表示中`,
     // `figures`: [name, amount] of each.
@@ -319,6 +321,9 @@ export const texts = {
   now: "現在",
   fromTo: (low, high) => `${low} ～ ${high}`,
   process: {
+    // Of the machine: what is known of each, else "".
+    machine: ({ part, layer, track }) => [part && `ワーク ${part}`, layer !== null && `層 ${layer}`,
+      track !== null && `軌跡 ${track}`].filter(Boolean).join(" · "),
     keyFigures: "主要な値",
     change: "領域を変更",
     typed: "限界値を入力",
@@ -361,6 +366,27 @@ export const texts = {
 
 // Titles of signals and texts of codes by those of the appliance.
 export const words = {
+  "Part": "ワーク",
+  "Program": "プログラム",
+  "Layer": "層",
+  "Track": "軌跡",
+  "Tool X": "工具 X",
+  "Tool Y": "工具 Y",
+  "Tool Z": "工具 Z",
+  "Axis A": "A 軸",
+  "Axis B": "B 軸",
+  "Axis C": "C 軸",
+  "Feed": "送り速度",
+  "Laser power": "レーザー出力",
+  "Powder flow": "粉末流量",
+  "Laser on": "レーザーオン",
+  "Program running": "プログラム実行中",
+  "Triggers sent": "送信済みトリガー",
+  "no machine states are configured": "機械の状態は設定されていません",
+  "good: between two states": "良好: 二つの状態の間",
+  "good: continued from the last two states": "良好: 最後の二つの状態から延長",
+  "no state of the machine has arrived": "機械の状態がまだ届いていません",
+  "stale: the machine's states stopped, its values are not known": "古い: 機械の状態が届かなくなり、値は不明です",
   "Quality": "品質",
   "Hot spot present": "高温部の有無",
   "Hot spot area in the view": "ビュー内の高温部の面積",
