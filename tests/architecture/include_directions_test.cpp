@@ -79,8 +79,8 @@ bool is_standard(const std::string& header) {
                   [&](const auto& s) { return header.starts_with(s); })) {
     return true;
   }
-  static const std::vector<std::string> kLibraries{"gpiod.h",      "jerror.h", "jpeglib.h",
-                                                   "microhttpd.h", "png.h",    "turbojpeg.h"};
+  static const std::vector<std::string> kLibraries{
+      "gpiod.h", "jerror.h", "jpeglib.h", "microhttpd.h", "png.h", "turbojpeg.h", "zstd.h"};
   return header.find('/') == std::string::npos &&
          std::ranges::find(kLibraries, header) == kLibraries.end();
 }
