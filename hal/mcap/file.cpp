@@ -94,7 +94,7 @@ FileResult<> File::sync() const {
   return failed_now("cannot be written to the disk");
 }
 
-tl::unexpected<FileError> File::named(FileError error) const {
+tl::unexpected<FileError> File::named(const FileError& error) const {
   return tl::unexpected<FileError>(FileError{error.number, name_ + ": " + error.message});
 }
 

@@ -43,7 +43,7 @@ class File {
   FileResult<> sync() const;
 
   /// The same error with the file's name in front.
-  tl::unexpected<FileError> named(FileError error) const;
+  tl::unexpected<FileError> named(const FileError& error) const;
 
  private:
   tl::unexpected<FileError> failed_now(const std::string& what) const;

@@ -110,6 +110,7 @@ FileResult<> Writer::write(const MessageHead& head, std::span<const std::byte> d
                                 " bytes left");
   }
   chunk_.append(definitions);
+  definition_bytes_ += definitions.size();
   if (!is_defined) new_channels_.push_back(head.channel_id);
   chunk_.append(head, data);
   return {};
@@ -121,20 +122,18 @@ FileResult<> Writer::flush() {
   if (index) {
     for (const std::uint16_t id : new_channels_) {
       const Channel& channel = channels_.at(id);
-      summary_bytes_ += encoded(channel).size();
       summary_.channels.emplace(id, channel);
       if (channel.schema_id == 0 || summary_.schemas.contains(channel.schema_id)) continue;
-      const Schema& schema = schemas_.at(channel.schema_id);
-      summary_bytes_ += encoded(schema).size();
-      summary_.schemas.emplace(schema.id, schema);
+      summary_.schemas.emplace(channel.schema_id, schemas_.at(channel.schema_id));
     }
     chunk_.indexes().for_each([this](const MessageIndex& messages) {
       summary_.message_counts[messages.channel_id] += messages.messages.size();
     });
-    summary_bytes_ += encoded(*index).size();
+    summary_bytes_ += encoded(*index).size() + definition_bytes_;
     summary_.chunks.push_back(std::move(*index));
   }
   new_channels_.clear();
+  definition_bytes_ = 0;
   chunk_.clear();
   if (index) return {};
   return error_of(index);
@@ -164,8 +163,7 @@ FileResult<ChunkIndex> Writer::write_chunk() {
                    head.uncompressed_size};
   Bytes behind;
   indexes.append_to(behind, end_ + index.length, index);
-  std::size_t more = encoded(index).size();
-  for (const std::uint16_t id : new_channels_) more += definitions_of(channels_.at(id)).size();
+  const std::size_t more = encoded(index).size() + definition_bytes_;
   if (auto checked = check_summary(more); !checked) return error_of(checked);
   if (auto written = append({front, *stored, behind}); !written) return error_of(written);
   return index;

@@ -30,9 +30,9 @@ struct WriterSettings {
 /// complete() finishes such a file, and any reader of MCAP reads it before that up to the torn
 /// record.
 ///
-/// An error of the disk (ENOSPC, EROFS, EIO...) costs the messages since the last flush, and an
-/// attachment costs itself; the file keeps its earlier content and writing may go on. Thread-bound;
-/// not for the frame path, since it allocates.
+/// An error of flush(), such as ENOSPC, EROFS or EIO of the disk, costs the messages since the last
+/// one, and an error of attach() the attachment; the file keeps its earlier content and writing may
+/// go on. Thread-bound; not for the frame path, since it allocates.
 class Writer {
  public:
   /// Makes a new file. Errors: there is one; the folder is not writable; settings.chunk is 0 or
@@ -82,6 +82,7 @@ class Writer {
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::vector<std::uint16_t> new_channels_;  ///< defined in the chunk, not yet in the file
+  std::size_t definition_bytes_ = 0;         ///< of these and their schemas
   Summary summary_;                          ///< of what is in the file
   std::size_t summary_bytes_ = 0;
   std::uint64_t end_ = 0;  ///< of the data

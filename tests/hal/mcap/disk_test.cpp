@@ -92,6 +92,27 @@ TEST(McapDisk, FullCostsOneSetAndWritingGoesOn) {
   });
 }
 
+TEST(McapDisk, FullBeforeTheFirstSetDoesNotLoseDefinitions) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  const tests::TemporaryFolder folder;
+  expect_in_a_process([&] {
+    mount_small_disk(folder.path(), "size=64k");
+    auto writer = Writer::create(folder / "a.mcap");
+    tests::require(writer.has_value());
+    tests::define_channels(*writer);
+    { std::ofstream(folder / "other") << std::string(100'000, 'x'); }
+    std::mt19937 random(7);
+    const std::vector sets{tests::random_set(random, 0, 1, 20'000),
+                           tests::random_set(random, 1, 1, 5000)};
+    tests::write_set(*writer, sets[0]);
+    EXPECT_EQ(writer->flush().error().number, ENOSPC);
+    std::filesystem::remove(folder / "other");
+    tests::write_set(*writer, sets[1]);
+    ASSERT_TRUE(writer->finish());
+    expect_sets(folder / "a.mcap", {sets[1]});
+  });
+}
+
 TEST(McapDisk, FullLeavesAFileThatIsCompletedLater) {
   ORBWATCH_WITHOUT_ROOT_SKIPPED();
   const tests::TemporaryFolder folder;

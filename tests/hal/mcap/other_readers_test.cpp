@@ -80,7 +80,11 @@ Lines lines_of(Reader& reader) {
     std::string entries;
     const auto metadata = reader.metadata(k);
     for (const auto& [key, value] : metadata->entries) {
-      entries += (entries.empty() ? "\"" : ",\"") + key + "\":\"" + value + "\"";
+      entries += entries.empty() ? "\"" : ",\"";
+      entries += key;
+      entries += "\":\"";
+      entries += value;
+      entries += "\"";
     }
     lines.insert("metadata " + metadata->name + " {" + entries + "}");
   }

@@ -145,6 +145,25 @@ TEST(Writer, KeepsTheChunkWithinItsBound) {
   EXPECT_EQ(tests::sets_of(reader).size(), 2U);
 }
 
+TEST(Writer, FillsTheSummaryUpToWhatAReaderAccepts) {
+  const tests::TemporaryFolder folder;
+  auto writer = Writer::create(folder / "a.mcap", {.chunk = 1000});
+  ASSERT_TRUE(writer);
+  tests::define_channels(*writer);
+  std::size_t count = 0;
+  for (const std::size_t name : {kMostName, std::size_t{1}}) {
+    FileResult<> added;
+    while ((added = writer->add_metadata({std::string(name, 'm'), {}}))) ++count;
+    EXPECT_EQ(added.error().number, EFBIG);
+  }
+  ASSERT_TRUE(writer->write({1, 0, 10, 10}, {}));
+  EXPECT_EQ(writer->flush().error().number, EFBIG);
+  ASSERT_TRUE(writer->finish());
+  const Reader reader = tests::opened(folder / "a.mcap");
+  EXPECT_EQ(reader.summary().metadata.size(), count);
+  EXPECT_GT(count * kMostName, Limits{}.summary / 10 * 9);
+}
+
 TEST(Complete, LeavesAFinishedFileAsItIs) {
   const tests::TemporaryFolder folder;
   tests::write_recording(folder / "a.mcap", tests::random_recording(1, 3, 100));
