@@ -18,6 +18,7 @@
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/lines/line_settings.h"
 #include "app/ports/modbus/modbus_settings.h"
+#include "app/ports/recorder/recorder_settings.h"
 #include "app/ports/snapshot/snapshot_settings.h"
 #include "app/ports/web/web_settings.h"
 #include "app/simulation/machine.h"
@@ -39,7 +40,8 @@ using SinkSettings = std::tuple<ConsoleSettings,   //
                                 ModbusSettings,    //
                                 DdsSettings,       //
                                 SnapshotSettings,  //
-                                WebSettings>;
+                                WebSettings,       //
+                                RecorderSettings>;
 
 /// Calls `use` with the settings of each sink, in the order of the list.
 template <class Use>

@@ -16,9 +16,10 @@ namespace orbwatch::app::daemon {
 namespace {
 
 /// Parts that sinks are made with; each sink takes those that its make_sink() names.
-using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>,
-                             CommandPath, MachinePath, std::shared_ptr<hal::SharedThreads>,
-                             std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
+using SinkParts =
+    std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>, CommandPath,
+               MachinePath, RecordedTexts, std::shared_ptr<hal::SharedThreads>,
+               std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
 
 /// Null: the settings do not enable it.
 template <class Settings, class... Parts>
@@ -81,12 +82,20 @@ Interfaces::Interfaces(const files::Resolved& site, const SitePlan& plan, Comman
   ApplianceIdentity identity;
   identity.version = version_of(program);
   identity.page = page_of(sinks);
+  RecordedTexts texts = recorded_texts(site, program);
   PageContext page = page_context(site, plan, alignment, std::move(program));
   page.tables = [this] { return tables(); };
   page.metrics = [this] { return metrics(); };
-  const SinkParts parts{site.names,          published_views(site, plan), published_cameras(site),
-                        std::move(commands), std::move(machine),          std::move(background),
-                        make_fleet(sinks),   std::move(identity),         std::move(page)};
+  const SinkParts parts{site.names,
+                        published_views(site, plan),
+                        published_cameras(site),
+                        std::move(commands),
+                        std::move(machine),
+                        std::move(texts),
+                        std::move(background),
+                        make_fleet(sinks),
+                        std::move(identity),
+                        std::move(page)};
   std::size_t next = 0;
   files::for_each_sink(sinks, [&]<class Settings>(const Settings& settings) {
     all_[next++] = made<Settings>(make_sink, settings, parts);

@@ -89,6 +89,18 @@ std::vector<std::shared_ptr<const optics::ViewProjection>> camera_balls(
   return balls;
 }
 
+RecordedTexts recorded_texts(const files::Resolved& site, const Program& program) {
+  RecordedTexts recorded{{}, program.versions};
+  for (const files::FileTexts* texts : {&site.texts, &site.calibration}) {
+    for (const auto& [path, text] : *texts) {
+      std::string name = path.filename().string();
+      while (recorded.files.contains(name)) name.insert(0, "other-");
+      if (!text.empty()) recorded.files[name] = text;
+    }
+  }
+  return recorded;
+}
+
 std::vector<MeasuredRecipe> measured_recipes(const files::Resolved& site, const SitePlan& plan) {
   std::vector<MeasuredRecipe> recipes;
   for (std::size_t i = 0; i < plan.recipes.size(); ++i) {

@@ -6,7 +6,9 @@
 
 #include "app/daemon/site/site_plan.h"
 #include "app/files/resolve.h"
+#include "app/model/configuration/program.h"
 #include "app/model/sink/published.h"
+#include "app/model/sink/recorded_texts.h"
 #include "app/model/status/measured_recipe.h"
 
 namespace orbwatch::app::daemon {
@@ -24,5 +26,9 @@ std::vector<std::shared_ptr<const optics::ViewProjection>> camera_balls(
 
 /// Its recipes, with the outlines and projections that they are measured by. Reentrant.
 std::vector<MeasuredRecipe> measured_recipes(const files::Resolved& site, const SitePlan& plan);
+
+/// All texts of its configuration by the names of their files, with versions of the program and its
+/// libraries. Reentrant.
+RecordedTexts recorded_texts(const files::Resolved& site, const Program& program);
 
 }  // namespace orbwatch::app::daemon

@@ -157,7 +157,8 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(std::uint32_t, line_faults, kCount,                                                        \
         "Bit n: line n of the configuration is missing or has a fault")                            \
   FIELD(std::uint32_t, interface_faults, kCount,                                                   \
-        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshot, 4 web")     \
+        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshot, 4 web, "    \
+        "5 recorder")                                                                              \
   FIELD(double, busy_ms, kProcessorTime,                                                           \
         "Processor time of the pipeline's own thread for the newest completed frame set; a lower " \
         "bound of its duration")                                                                   \

@@ -140,8 +140,9 @@ struct RenderedPair {
   Mat3 truth;
 
   Result<Registration> by(Result<Registration> (*method)(const align::ReferenceCamera&,
-                                                         const align::SoughtCamera&)) const {
-    return method({picture_of_mat(reference), *known}, sought);
+                                                         const align::SoughtCamera&,
+                                                         const align::WorkProgress&)) const {
+    return method({picture_of_mat(reference), *known}, sought, {});
   }
 };
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+#include "app/model/status/field.h"
+
+namespace orbwatch::app::recorder {
+
+inline constexpr Quantity kBytesPerDay{"MiB", 0.1, 0, 1e9};
+
+#define ORBWATCH_RECORDER_COUNTERS(FIELD)                                                   \
+  FIELD(std::uint64_t, recorded, kCount, "Frame sets recorded since start")                 \
+  FIELD(std::uint64_t, events, kCount, "Events of alarms recorded since start")             \
+  FIELD(std::uint64_t, lost, kCount,                                                        \
+        "Frame sets and events that were not recorded: the disk failed or did not keep up") \
+  FIELD(std::uint64_t, bytes, kCount, "Bytes written since start")                          \
+  FIELD(std::uint64_t, removed, kCount, "Recordings deleted to stay within the limits")
+
+#define ORBWATCH_RECORDER_FIGURES(FIELD)                                             \
+  FIELD(bool, fault, kFlag, "The disk cannot be written, or is silent: see the log") \
+  FIELD(double, per_day, kBytesPerDay, "Data written per day, at the rate since start")
+
+/// Figures of the recorder since start.
+struct RecorderStatistics {
+  ORBWATCH_RECORDER_COUNTERS(ORBWATCH_FIELD_MEMBER)
+  ORBWATCH_RECORDER_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<RecorderStatistics>, Visit&& visit) {
+  using Part = RecorderStatistics;
+  ORBWATCH_RECORDER_COUNTERS(ORBWATCH_VISIT_FIELD)
+  ORBWATCH_RECORDER_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+/// The counters; written by the recorder's thread, read by any.
+struct RecorderCounters {
+#define ORBWATCH_COUNTER(type, name, ...) std::atomic<type> name{0};
+  ORBWATCH_RECORDER_COUNTERS(ORBWATCH_COUNTER)
+#undef ORBWATCH_COUNTER
+
+  RecorderStatistics read() const {
+    RecorderStatistics statistics;
+#define ORBWATCH_READ(type, name, ...) statistics.name = name;
+    ORBWATCH_RECORDER_COUNTERS(ORBWATCH_READ)
+#undef ORBWATCH_READ
+    return statistics;
+  }
+};
+
+}  // namespace orbwatch::app::recorder
