@@ -21,8 +21,7 @@ GOOD = 1  # state of an alignment that is watched
 
 class Steps(AlignCase):
     def test_the_first_step_needs_no_scrolling(self):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": 1440, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.browser.show_on(1440, 900)
         self.open()
         shown = self.browser.execute_script("""
             const named = (text) => [...document.querySelectorAll('#align button')]

@@ -82,6 +82,11 @@ class Browser(webdriver.Chrome):
             const count = pixels.length / 4, mean = sum / count;
             return [mean, Math.sqrt(squares / count - mean * mean)];""", view)
 
+    def show_on(self, width, height):
+        """Emulates a screen of this size, CSS px; of a phone below 600."""
+        self.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+
     def show_in(self, scheme):
         """Emulates a colour scheme, light or dark."""
         self.execute_cdp_cmd("Emulation.setEmulatedMedia", {

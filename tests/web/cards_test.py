@@ -21,8 +21,7 @@ LEAST_TARGET = 24  # px, WCAG 2.5.8
 
 class Cards(PageCase):
     def open(self, width, height):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+        self.browser.show_on(width, height)
         self.browser.get("about:blank")
         self.browser.get(f"{self.appliance.address}#/system")
         eventually("the state of every card", lambda: (states := self.states()) and all(states.values()))

@@ -20,8 +20,7 @@ ALARM_LEVELS, WARNING_LEVELS, CALM_STATES = {1, 4, 5}, {2, 3}, {0, 6}
 
 class Glance(PageCase):
     def show(self, width, height, page="process"):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+        self.browser.show_on(width, height)
         self.browser.get(f"{self.appliance.address}#/{page}")
         eventually("the page shows the state", lambda: "running" in self.browser.text("#condition"))
 

@@ -17,8 +17,7 @@ LEAST_FONT_PX = 15 / 0.27 / 0.7
 
 class OperatorScreen(PageCase):
     def show(self, width=1920, height=1080):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+        self.browser.show_on(width, height)
         self.browser.get(f"{self.appliance.address}operator")
         eventually("view, key figures and alarms", lambda: self.browser.execute_script("""
             return document.querySelector('#operator #regions canvas')?.dataset.number

@@ -19,8 +19,7 @@ CLOSE_PX = 2
 
 class Tiles(PageCase):
     def open(self, width, height):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+        self.browser.show_on(width, height)
         self.browser.get("about:blank")
         self.browser.get(f"{self.appliance.address}#/live")
         eventually("pictures are shown", lambda: all(self.browser.picture_numbers().values() or [0]))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// View with its regions, what the machine says, key figures and alarms, for one glance.
+// Overview of the process: the view with its regions, what the machine says, key figures and alarms.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { Alarms, worstOf } from "./alarms.js";

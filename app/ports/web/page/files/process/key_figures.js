@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Key figures: signals with limits as large numbers with their last ten minutes, in the colours of their alarms.
+import { raisedAlarms } from "../appliance/alarms.js";
 import { History } from "../appliance/history.js";
 import { figureText, unitSymbol } from "../elements/amounts.js";
 import { freshBrush, pointsOf, strokeCurve, valuesOf } from "../elements/curve.js";
 import { element, setText } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
-import { raisedAlarms } from "../appliance/alarms.js";
 import { texts } from "../texts.js";
 import { worstOf } from "./alarms.js";
 
