@@ -7,12 +7,9 @@
 #include "app/alignment/alignment_state.h"
 #include "app/alignment/drift_correction.h"
 #include "app/log.h"
-#include "proc/align/register/registration.h"
 
 namespace orbwatch::app {
 namespace {
-
-std::optional<AlignmentProposal> found(AlignmentProposal proposal) { return proposal; }
 
 /// The entry that accepting a proposal adds.
 CalibrationEntry entry_of(const AlignmentProposal& proposal) {
@@ -50,43 +47,47 @@ void AlignmentDesk::start() {
 }
 
 void AlignmentDesk::stop() {
-  watch_.cancel_records();
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopped_ = true;
+    if (wanted_) wanted_->stop.request_stop();
+  }
   correction_.cancel();
   work_.cancel();
   pictures_.stop();
 }
 
+AlignmentDesk::Task AlignmentDesk::task_of(Method method, std::size_t camera) const {
+  return [this, method, camera](const optics::Rig& rig, const align::WorkProgress& progress) {
+    return (finder_.*method)(rig, camera, progress);
+  };
+}
+
 CommandResult AlignmentDesk::detect(std::size_t camera) {
-  return begin(camera, watch_.is_watched(camera), [this, camera](const optics::Rig& rig) {
-    return finder_.detect(rig, camera).map(found);
-  });
+  return begin(camera, watch_.is_watched(camera), task_of(&AlignmentFinder::detect, camera));
 }
 
 CommandResult AlignmentDesk::register_to_first(std::size_t camera) {
   const bool is_possible = camera != 0 && watch_.is_watched(camera) && watch_.is_watched(0);
-  return begin(camera, is_possible, [this, camera](const optics::Rig& rig) {
-    return finder_.register_to_first(rig, camera).map(found);
-  });
+  return begin(camera, is_possible, task_of(&AlignmentFinder::register_to_first, camera));
 }
 
 CommandResult AlignmentDesk::correct(std::size_t camera) {
-  return begin(camera, watch_.is_watched(camera), [this, camera](const optics::Rig& rig) {
-    return finder_.correct(rig, camera).map(found);
+  return begin(camera, watch_.is_watched(camera), [this, camera](const auto& rig, const auto&) {
+    return finder_.correct(rig, camera);
   });
 }
 
 CommandResult AlignmentDesk::mark(std::size_t camera, const optics::Vec3& point) {
-  return begin(camera, watch_.is_watched(camera), [this, camera, point](const optics::Rig& rig) {
+  const auto task = [this, camera, point](const auto& rig, const auto& progress) {
     std::optional<optics::Vec2> picked;
     {
       const std::lock_guard lock(mutex_);
       picked = std::exchange(desks_[camera].picked, std::nullopt);
     }
-    return finder_.mark(rig, camera, point, picked).map([&] {
-      point_counts_[camera] = finder_.points(camera).size();
-      return std::optional<AlignmentProposal>();
-    });
-  });
+    return finder_.mark(rig, camera, point, picked, progress);
+  };
+  return begin(camera, watch_.is_watched(camera), task);
 }
 
 CommandResult AlignmentDesk::pick(std::size_t camera, const optics::Vec2& pixel) {
@@ -101,9 +102,7 @@ CommandResult AlignmentDesk::pick(std::size_t camera, const optics::Vec2& pixel)
 CommandResult AlignmentDesk::place(std::size_t camera) {
   const bool is_possible =
       watch_.is_watched(camera) && (point_counts_[camera] > 0 || !site_.place.tags.empty());
-  return begin(camera, is_possible, [this, camera](const optics::Rig& rig) {
-    return finder_.place(rig, camera).map(found);
-  });
+  return begin(camera, is_possible, task_of(&AlignmentFinder::place, camera));
 }
 
 CommandResult AlignmentDesk::forget_point(std::size_t camera, const optics::Vec3& point) {
@@ -130,12 +129,11 @@ CommandResult AlignmentDesk::begin(std::size_t camera, bool is_possible, Task ta
   if (!is_possible) return CommandResult::NotPossible;
   {
     const std::lock_guard lock(mutex_);
-    if (busy_) return CommandResult::Busy;
+    if (busy_ || is_stopped_) return CommandResult::Busy;
     auto rig = proposed_rig(camera);
     if (!rig) return CommandResult::NotPossible;
-    rig_ = std::move(*rig);
     busy_ = camera;
-    task_ = std::move(task);
+    wanted_ = std::make_shared<Work>(Work{camera, std::move(task), std::move(*rig)});
     desks_[camera].refusal.clear();
     states_[camera] = ProposalState::Working;
   }
@@ -143,25 +141,61 @@ CommandResult AlignmentDesk::begin(std::size_t camera, bool is_possible, Task ta
   return CommandResult::Done;
 }
 
+CommandResult AlignmentDesk::cancel(std::size_t camera) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!wanted_ || wanted_->camera != camera) return CommandResult::NotPossible;
+    wanted_->stop.request_stop();
+    wanted_.reset();
+    busy_.reset();
+    show_steps(camera);
+  }
+  log_camera(LogLevel::Info, name(camera), "its alignment is cancelled: nothing is changed");
+  return CommandResult::Done;
+}
+
+/// Cancelled work that still runs delays the next one, and nothing else.
 void AlignmentDesk::work() {
-  const Finding finding = task_(rig_);
-  std::size_t camera = 0;
+  std::shared_ptr<Work> work;
+  {
+    const std::lock_guard lock(mutex_);
+    work = wanted_;
+  }
+  if (!work) return;  // cancelled before it began
+  const auto on_step = [&](align::WorkStep step, double share) {
+    const std::lock_guard lock(mutex_);
+    work->step = step;
+    work->share = share;
+  };
+  keep(work, work->task(work->rig, align::WorkProgress(on_step, work->stop.get_token())));
+}
+
+void AlignmentDesk::keep(const std::shared_ptr<Work>& work, Result<Found> found) {
+  const std::size_t camera = work->camera;
+  const std::string refusal = found ? found->refusal : found.error().message;
   std::string said;
   {
     const std::lock_guard lock(mutex_);
-    camera = *std::exchange(busy_, std::nullopt);
-    if (!finding) {
+    if (wanted_ != work || is_stopped_) return;  // cancelled
+    wanted_.reset();
+    busy_.reset();
+    if (found && found->points) {
+      point_counts_[camera] = found->points->marks.size();
+      finder_.set_points(camera, std::move(*found->points));
+    }
+    if (!refusal.empty()) {
       states_[camera] = ProposalState::Refused;
-      desks_[camera].refusal = finding.error().message;
-      said = "nothing found: " + finding.error().message;
-    } else if (*finding) {
-      said = add_step(camera, **finding);
+      desks_[camera].refusal = refusal;
+      said = "nothing found: " + refusal;
+    } else if (found->proposal) {
+      said = add_step(camera, std::move(*found->proposal));
     } else {
       show_steps(camera);
+      said = "a point is marked, of " + std::to_string(point_counts_[camera]) + " for place_camera";
     }
   }
-  if (said.empty()) return;
-  log_camera(finding ? LogLevel::Info : LogLevel::Warning, name(camera), said);
+  log_camera(refusal.empty() ? LogLevel::Info : LogLevel::Warning, name(camera), said);
 }
 
 /// The rig that an acceptance of the camera's proposal would put in force.
@@ -223,13 +257,15 @@ CommandResult AlignmentDesk::turn(std::size_t camera, const optics::YawPitchRoll
 }
 
 CommandResult AlignmentDesk::state(std::size_t camera, const std::string& method,
-                                   const Change& change) {
+                                   const AlignmentChange& change) {
   if (!has(camera)) return CommandResult::ArgumentOutOfRange;
   std::string said;
   {
     const std::lock_guard lock(mutex_);
     if (busy_) return CommandResult::Busy;
-    auto proposal = stated(camera, method, change);
+    auto proposal = proposed_rig(camera).and_then([&](const optics::Rig& rig) {
+      return stated_alignment(rig, site_.camera_of(rig, camera), method, change);
+    });
     if (!proposal) {
       desks_[camera].refusal = proposal.error().message;
       return CommandResult::ArgumentOutOfRange;
@@ -239,20 +275,6 @@ CommandResult AlignmentDesk::state(std::size_t camera, const std::string& method
   }
   log_camera(LogLevel::Info, name(camera), said);
   return CommandResult::Done;
-}
-
-Result<AlignmentProposal> AlignmentDesk::stated(std::size_t camera, const std::string& method,
-                                                const Change& change) const {
-  auto rig = proposed_rig(camera);
-  if (!rig) return tl::unexpected(rig.error());
-  const auto seen = align::by_outline(*rig, site_.camera_of(*rig, camera));
-  if (!seen) return tl::unexpected(seen.error());
-  CameraAlignment alignment{
-      .camera = seen->name, .outline = seen->outline, .registration = known_registration(*seen)};
-  change(*alignment.outline, alignment.registration);
-  return apply({.cameras = {alignment}}, *rig).map([&] {
-    return AlignmentProposal{alignment, method, "stated, not measured"};
-  });
 }
 
 CommandResult AlignmentDesk::undo(std::size_t camera) {
@@ -364,7 +386,7 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
   }
   auto corrected = finder_.correct(site_.rig, camera);
   if (!corrected) return;
-  if (const auto allowed = check_acceptance_(entry_of(*corrected)); !allowed) {
+  if (const auto allowed = check_acceptance_(entry_of(*corrected->proposal)); !allowed) {
     drifting_since_[camera].reset();  // not each second
     const std::string why = "its drift is not corrected: " + allowed.error().message;
     if (is_new_refusal(camera, why)) log_camera(LogLevel::Warning, name(camera), why);
@@ -374,7 +396,7 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
   {
     const std::lock_guard lock(mutex_);
     if (busy_) return;
-    said = add_step(camera, std::move(*corrected));
+    said = add_step(camera, std::move(*corrected->proposal));
   }
   log_camera(LogLevel::Info, name(camera), said);
   // One that is refused is not found again each second.
@@ -405,6 +427,10 @@ AlignmentReport AlignmentDesk::report(std::size_t camera) const {
     report.refusal = desk.refusal;
     report.steps = desk.steps.size();
     report.picked = desk.picked;
+    if (wanted_ && wanted_->camera == camera) {
+      report.step = wanted_->step;
+      report.share = wanted_->share;
+    }
     if (!desk.steps.empty()) step = desk.steps.back();
     if (const auto rig = proposed_rig(camera); step && rig) proposed = *rig;
   }

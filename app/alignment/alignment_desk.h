@@ -8,12 +8,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "app/alignment/aligned_site.h"
 #include "app/alignment/alignment_finder.h"
 #include "app/alignment/alignment_pictures.h"
+#include "app/alignment/stated_alignment.h"
 #include "app/alignment/watched_cameras.h"
 #include "app/model/alignment/accepted_alignments.h"
 #include "app/model/alignment/alignment.h"
@@ -29,8 +31,9 @@ using AcceptanceCheck = std::function<Result<>(const CalibrationEntry&)>;
 /// Finds new alignments of a running site's cameras on command, changes them, and puts those that
 /// are accepted in force: an entry in the file of calibrations, and a restart. What is found or
 /// stated builds on the camera's proposal, if there is one, and is a step that can be taken back.
-/// Finding takes seconds, one camera at a time, on a thread of its own. Cameras whose settings ask
-/// for it are corrected without a command when their drift lasts, not more often than each
+/// Finding takes seconds, one camera at a time, on a thread of its own, and can be cancelled:
+/// nothing of it is kept, and another one may begin at once. Cameras whose settings ask for it are
+/// corrected without a command when their drift lasts, not more often than each
 /// kPauseOfCorrections.
 /// Thread rule: start and stop on the owner's thread, the rest on any.
 class AlignmentDesk : public AlignmentSource {
@@ -69,6 +72,9 @@ class AlignmentDesk : public AlignmentSource {
   /// neither.
   CommandResult place(std::size_t camera);
 
+  /// Cancels what one of these commands began for the camera. NotPossible: it has ended.
+  CommandResult cancel(std::size_t camera);
+
   // States an alignment. ArgumentOutOfRange: also one that cannot be; the report says why.
 
   CommandResult move_outline(std::size_t camera, const optics::Vec2& centre);
@@ -100,12 +106,11 @@ class AlignmentDesk : public AlignmentSource {
   void stop();
 
  private:
-  using Finding = Result<std::optional<AlignmentProposal>>;  ///< none: a point was marked
-  using Task = std::function<Finding(const optics::Rig& rig)>;
-  /// Changes the camera as it is to be, of which it has the outline and, if it is registered, the
-  /// registration.
-  using Change =
-      std::function<void(optics::Outline& outline, std::optional<optics::Mat3>& registration)>;
+  using Task =
+      std::function<Result<Found>(const optics::Rig& rig, const align::WorkProgress& progress)>;
+
+  using Method = Result<Found> (AlignmentFinder::*)(const optics::Rig& rig, std::size_t camera,
+                                                    const align::WorkProgress& progress) const;
 
   /// Proposals for one camera, under mutex_.
   struct Desk {
@@ -114,15 +119,25 @@ class AlignmentDesk : public AlignmentSource {
     std::optional<optics::Vec2> picked;
   };
 
+  /// What a command has begun.
+  struct Work {
+    std::size_t camera;
+    Task task;
+    optics::Rig rig;
+    std::stop_source stop{};
+    align::WorkStep step = align::WorkStep::None;  ///< under mutex_
+    double share = 0;                              ///< of the step; under mutex_
+  };
+
   bool has(std::size_t camera) const { return camera < site_.cameras.size(); }
   const std::string& name(std::size_t camera) const { return site_.cameras[camera].name; }
   Result<std::vector<optics::BallProjection>> balls_of(const AlignmentPicture& picture) const;
 
+  Task task_of(Method method, std::size_t camera) const;
   CommandResult begin(std::size_t camera, bool is_possible, Task task);
   void work();
-  CommandResult state(std::size_t camera, const std::string& method, const Change& change);
-  Result<AlignmentProposal> stated(std::size_t camera, const std::string& method,
-                                   const Change& change) const;
+  void keep(const std::shared_ptr<Work>& work, Result<Found> found);
+  CommandResult state(std::size_t camera, const std::string& method, const AlignmentChange& change);
   CommandResult put_in_force(std::size_t camera, const CalibrationEntry& entry);
   CommandResult refuse(std::size_t camera, const std::string& why, CommandResult result);
   bool is_new_refusal(std::size_t camera, const std::string& why);
@@ -149,8 +164,8 @@ class AlignmentDesk : public AlignmentSource {
   mutable std::mutex mutex_;  ///< guards the members below
   std::array<Desk, kMaxCameras> desks_;
   std::optional<std::size_t> busy_;  ///< the camera that is worked for
-  Task task_;
-  optics::Rig rig_;                                                        ///< for task_
+  std::shared_ptr<Work> wanted_;     ///< waits or runs, and is not cancelled; null: none
+  bool is_stopped_ = false;
   std::array<std::optional<hal::TimePoint>, kMaxCameras> drifting_since_;  ///< the correction's
   /// Others must not wait for seconds.
   const std::shared_ptr<hal::SharedThreads> thread_ = hal::SharedThreads::alone("alignment");

@@ -50,12 +50,12 @@ align::PlaceRequest place_request(const optics::Rig& rig, const PlacePrecision& 
 
 Result<> add_camera(align::PlaceRequest& request, align::UnplacedCamera camera,
                     std::span<const KnownPoint> points, const Picture* picture,
-                    std::span<const align::PrintedTag> tags) {
+                    std::span<const align::PrintedTag> tags, const align::WorkProgress& progress) {
   for (const auto& [pixel, point] : points) {
     camera.marks.push_back({align::add_point(request, point), pixel});
   }
   if (picture && !tags.empty()) {
-    const auto shown = align::mark_tags(*picture, tags, camera, request);
+    const auto shown = align::mark_tags(*picture, tags, camera, request, progress);
     if (!shown) return tl::unexpected(shown.error());
   }
   request.cameras.push_back(std::move(camera));

@@ -11,6 +11,7 @@
 #include "app/model/alignment/rig_alignment.h"
 #include "proc/align/place/placement.h"
 #include "proc/align/place/tags/printed_tag.h"
+#include "proc/align/work_progress.h"
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"
@@ -36,7 +37,8 @@ align::PlaceRequest place_request(const optics::Rig& rig, const PlacePrecision& 
 /// Reentrant. Error: those of align::mark_tags().
 Result<> add_camera(align::PlaceRequest& request, align::UnplacedCamera camera,
                     std::span<const KnownPoint> points, const Picture* picture,
-                    std::span<const align::PrintedTag> tags);
+                    std::span<const align::PrintedTag> tags,
+                    const align::WorkProgress& progress = {});
 
 /// Alignment of the rig by a placement. Reentrant. Error: points that contradict the others.
 Result<RigAlignment> rig_alignment(const align::PlaceRequest& request,

@@ -49,7 +49,7 @@ Result<FoundRegistration> register_camera(const optics::Rig& rig,
                                           const optics::RigCamera& camera,
                                           const align::SimultaneousPictures& pictures,
                                           const RegistrationSettings& settings,
-                                          const align::RegistrationProgress& progress) {
+                                          const align::WorkProgress& progress) {
   const auto ball = optics::ball_projection(rig, reference);
   if (!ball) return tl::unexpected(ball.error());
   auto turnable = align::by_outline(rig, camera);

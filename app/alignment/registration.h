@@ -41,7 +41,7 @@ Result<FoundRegistration> register_camera(const optics::Rig& rig,
                                           const optics::RigCamera& camera,
                                           const align::SimultaneousPictures& pictures,
                                           const RegistrationSettings& settings,
-                                          const align::RegistrationProgress& progress);
+                                          const align::WorkProgress& progress);
 
 /// The alignment of a registered camera: a pose that the rig states is kept as a pose, turned about
 /// the ball; else it is the outline with the registration. `sought`: the camera by its outline.

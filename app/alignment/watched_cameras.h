@@ -12,6 +12,7 @@
 #include "hal/fault.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/align/drift/drift_monitor.h"
+#include "proc/align/work_progress.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -41,12 +42,10 @@ class WatchedCameras {
 
   /// Waits for the next pictures of watched cameras, at most `count` of each; fewer when `patience`
   /// ends. All are of frame sets that have a new picture of each of these cameras, and those of one
-  /// set have the same time. Error: one of them delivers none, or it was cancelled.
+  /// set have the same time. Error: one of them delivers none; cancelled by `progress`.
   virtual Result<std::vector<std::vector<RecordedPicture>>> record(
-      const std::vector<std::size_t>& cameras, std::size_t count,
-      std::chrono::seconds patience) = 0;
-  /// Ends record(), now and in the future.
-  virtual void cancel_records() = 0;
+      const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds patience,
+      const align::WorkProgress& progress) = 0;
 
   /// Threads that readers are called on.
   virtual const std::shared_ptr<hal::SharedThreads>& threads() const = 0;

@@ -102,6 +102,8 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
     case CommandCode::ForgetPoint:
       return receivers.alignment.forget_point(command.integer(0),
                                               {arguments[1], arguments[2], arguments[3]});
+    case CommandCode::CancelAlignment:
+      return receivers.alignment.cancel(command.integer(0));
   }
   return CommandResult::UnknownCommand;
 }

@@ -84,10 +84,7 @@ Result<std::unique_ptr<CameraWatch::Watched>> CameraWatch::make(
   return std::make_unique<Watched>(std::move(*alignment), std::move(*ball), records_, threads_);
 }
 
-CameraWatch::~CameraWatch() {
-  cancel_records();
-  stop();
-}
+CameraWatch::~CameraWatch() { stop(); }
 
 void CameraWatch::stop() {
   copies_.stop();
@@ -159,35 +156,41 @@ void CameraWatch::ask(std::size_t camera, std::function<void(RecordedPicture)> r
 }
 
 Result<std::vector<std::vector<RecordedPicture>>> CameraWatch::record(
-    const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds patience) {
+    const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds patience,
+    const align::WorkProgress& progress) {
   const auto set_wanted = [&](std::size_t wanted) {
     for (const std::size_t camera : cameras) cameras_[camera]->wanted = wanted;
   };
-  const auto is_complete = [&] {
-    return records_.is_cancelled || std::ranges::all_of(cameras, [&](std::size_t camera) {
-             return cameras_[camera]->recorded.size() >= count;
-           });
+  // Pictures that each camera has.
+  const auto recorded = [&] {
+    std::size_t least = count;
+    for (const std::size_t camera : cameras) {
+      least = std::min(least, cameras_[camera]->recorded.size());
+    }
+    return least;
   };
+  const auto end = hal::Clock::now() + patience;
   std::unique_lock lock(records_.mutex);
   set_wanted(count);
-  records_.added.wait_for(lock, patience, is_complete);
+  Result<> wanted;
+  for (std::size_t had = 0; had < count; had = recorded()) {
+    const double share = static_cast<double>(had) / static_cast<double>(count);
+    wanted = progress.at(align::WorkStep::Record, share);
+    const auto is_more = [&] { return recorded() > had; };
+    if (!wanted || !records_.added.wait_until(lock, progress.stop(), end, is_more)) break;
+  }
   set_wanted(0);
   std::vector<std::vector<RecordedPicture>> records;
   records.reserve(cameras.size());
   for (const std::size_t camera : cameras) {
     records.push_back(std::exchange(cameras_[camera]->recorded, {}));
   }
-  if (records_.is_cancelled) return fail("orbwatchd ends");
+  if (wanted) wanted = progress.at(align::WorkStep::Record, 1);
+  if (!wanted) return tl::unexpected(wanted.error());
   for (const auto& record : records) {
     if (record.empty()) return fail("a camera delivers no pictures");
   }
   return records;
-}
-
-void CameraWatch::cancel_records() {
-  const std::lock_guard lock(records_.mutex);
-  records_.is_cancelled = true;
-  records_.added.notify_all();
 }
 
 }  // namespace orbwatch::app

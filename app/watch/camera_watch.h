@@ -58,10 +58,9 @@ class CameraWatch : public Sink, public WatchedCameras {
   void ask_together(std::vector<std::size_t> cameras, FrameSetCopies::Reader reader) override {
     copies_.ask(std::move(cameras), std::move(reader));
   }
-  Result<std::vector<std::vector<RecordedPicture>>> record(const std::vector<std::size_t>& cameras,
-                                                           std::size_t count,
-                                                           std::chrono::seconds patience) override;
-  void cancel_records() override;
+  Result<std::vector<std::vector<RecordedPicture>>> record(
+      const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds patience,
+      const align::WorkProgress& progress) override;
   const std::shared_ptr<hal::SharedThreads>& threads() const override { return threads_; }
 
   /// The ball was cleaned: its figure counts from what is seen now. For a camera that is watched.
@@ -71,8 +70,7 @@ class CameraWatch : public Sink, public WatchedCameras {
   /// Pictures for callers of record().
   struct Records {
     std::mutex mutex;  ///< guards the members below and the cameras' records
-    std::condition_variable added;
-    bool is_cancelled = false;
+    std::condition_variable_any added;
   };
 
   /// One camera. `frame` and `stamp` belong to the pipeline's thread while nothing is `looking`,

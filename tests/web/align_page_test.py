@@ -7,6 +7,7 @@ Folders: app/ports/web/page/files/align app/alignment app/watch
 import json
 import signal
 import unittest
+import urllib.error
 
 import numpy
 from selenium.webdriver.common.by import By
@@ -63,6 +64,38 @@ class Steps(AlignCase):
         self.assertEqual(self.found()["method"], "drift")
         self.press("Discard")
         eventually("nothing is proposed", lambda: not self.proposed())
+
+    def test_a_registration_shows_its_steps_and_is_cancelled(self):
+        self.open("thermal")
+        self.press("Register")
+        eventually("its step", lambda: "recording pictures" in self.browser.text("#working:not([hidden])"))
+        eventually("its progress", lambda: self.browser.execute_script(
+            "return document.querySelector('#working progress').value > 0"))
+        self.browser.keep_picture("align-working")
+        self.press("Cancel")
+        eventually("the page says so", lambda: self.browser.text("#align [role=status]")
+                   == "Cancelled: nothing is changed")
+        self.assertFalse(self.browser.find_element(By.ID, "working").is_displayed())
+        self.assertEqual(self.camera("thermal")["state_text"], "nothing is proposed")
+        self.assertEqual(self.camera("thermal")["steps"], 0)
+        eventually("another one can begin", lambda: self.browser.find_elements(
+            By.XPATH, "//*[@id='align']//button[text()='Register' and not(@disabled)]"))
+        self.expect_no_complaint()
+
+    def test_the_next_registration_begins_at_once_after_a_cancelled_one(self):
+        def give(name):
+            return json.loads(self.answer(f"api/v1/command/{name}", {"camera": camera["index"]}))["result_text"]
+
+        camera = self.camera("thermal")
+        self.assertEqual(give("register_camera"), "done")
+        eventually("it records", lambda: self.camera("thermal")["step_text"] == "recording pictures")
+        self.assertEqual(give("cancel_alignment"), "done")
+        self.assertEqual(give("register_camera"), "done")
+        eventually("it matches", lambda: self.camera("thermal")["step_text"].startswith("matching"))
+        self.assertEqual(give("cancel_alignment"), "done")
+        self.assertEqual(self.camera("thermal")["state_text"], "nothing is proposed")
+        with self.assertRaisesRegex(urllib.error.HTTPError, "409"):
+            give("cancel_alignment")
 
     def test_the_clean_ball_is_learnt(self):
         self.open()

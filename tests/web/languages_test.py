@@ -53,11 +53,13 @@ SHOWN = """
 
 
 def texts_of_the_appliance(description):
-    """Titles of signals and texts of codes of the complete status and of the events of alarms."""
-    events = description["paths"]["/api/v1/history/alarms"]["get"]["responses"]["200"]["content"]
+    """Titles of signals and texts of codes of the complete status, of the events of alarms and of alignments."""
+    def listed(path, name):
+        content = description["paths"][path]["get"]["responses"]["200"]["content"]
+        return content["application/json"]["schema"]["properties"][name]
     kinds = description["components"]["schemas"]["Status"]["properties"]
     found = set()
-    for kind in [*kinds.values(), events["application/json"]["schema"]["properties"]["alarms"]]:
+    for kind in [*kinds.values(), listed("/api/v1/history/alarms", "alarms"), listed("/api/v1/alignment", "cameras")]:
         one = kind.get("items", kind)
         for name, figure in one.get("properties", {}).items():
             found.update([figure["title"]] if "title" in figure else [])
@@ -79,7 +81,8 @@ class Languages(PageCase):
             By.CSS_SELECTOR, f"#{page}:not([hidden]) {PAGES[page]}"))
 
     def module(self, script, language):
-        read = self.browser.execute_async_script(script, module_address(f"texts/{language}.js"))
+        own = module_address("texts/en.js") if language == "en" else f"{self.appliance.address}texts/{language}.js"
+        read = self.browser.execute_async_script(script, own)
         self.assertNotIsInstance(read, str)
         return read
 

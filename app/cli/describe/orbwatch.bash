@@ -13,7 +13,7 @@ _orbwatch() {
     "calibration "*) words="--config --json --help" ;;
     "subscribe "*) words="--topic --domain --prefix --security --save --seconds --count --stats --each --json --help" ;;
     "state "*) words="--json --follow --domain --prefix --security --timeout --help" ;;
-    "command "*) words="--domain --prefix --security --timeout --help select_view pulse start stop select_recipe point_view mix_sources trigger acknowledge_alarm snapshot set_process_active restart detect_ball register_camera correct_alignment accept_alignment discard_alignment learn_clean_ball mark_point forget_points place_camera move_outline shape_outline turn_camera undo_alignment revert_alignment pick_pixel set_colour_map set_colour_range forget_point" ;;
+    "command "*) words="--domain --prefix --security --timeout --help select_view pulse start stop select_recipe point_view mix_sources trigger acknowledge_alarm snapshot set_process_active restart detect_ball register_camera correct_alignment accept_alignment discard_alignment learn_clean_ball mark_point forget_points place_camera move_outline shape_outline turn_camera undo_alignment revert_alignment pick_pixel set_colour_map set_colour_range forget_point cancel_alignment" ;;
     "password "*) words="--config --role --show --help" ;;
     "dds-keys "*) words="--subscriber --read-only --domain --prefix --days --replace --help" ;;
     "list "*) words="--json --appliances --seconds --domain --security --help" ;;

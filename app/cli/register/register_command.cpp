@@ -110,8 +110,11 @@ CliResult<std::string> register_cameras(const RegisterOptions& o, const std::str
   const auto settings = settings_for(o, *b);
   if (!settings) return tl::unexpected(settings.error());
   Progress progress;
-  const auto found = register_camera(*rig, *reference, *sought, {a->views(), b->views()}, *settings,
-                                     [&](const std::string& doing) { progress.begin(doing); });
+  const align::WorkProgress shown([&](align::WorkStep step, double /*share*/) {
+    progress.begin(std::string(operator_text(step)));
+  });
+  const auto found =
+      register_camera(*rig, *reference, *sought, {a->views(), b->views()}, *settings, shown);
   progress.erase();
   if (!found) return fail(b->name + " on " + a->name + ": " + found.error().message);
   if (!o.out.empty()) {

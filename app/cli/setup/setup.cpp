@@ -134,10 +134,10 @@ Result<optics::Mat3> registration(const Setup& setup, std::size_t camera, Progre
   const optics::Rig rig = rig_of(setup);
   const auto pictures = together(setup, camera);
   if (!pictures) return tl::unexpected(pictures.error());
-  const auto report = [&](const std::string& doing) {
-    progress.begin(setup.cameras[camera].name + ": " + doing);
-  };
-  return register_camera(rig, rig.cameras.front(), rig.cameras[camera], *pictures, {}, report)
+  const align::WorkProgress shown([&](align::WorkStep step, double /*share*/) {
+    progress.begin(setup.cameras[camera].name + ": " + std::string(operator_text(step)));
+  });
+  return register_camera(rig, rig.cameras.front(), rig.cameras[camera], *pictures, {}, shown)
       .map([](const FoundRegistration& found) { return found.found.registration.rotation; });
 }
 

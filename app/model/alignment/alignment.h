@@ -10,6 +10,7 @@
 
 #include "app/model/status/status.h"
 #include "hal/clock.h"
+#include "proc/align/work_progress.h"
 #include "proc/image/result.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/rotation.h"
@@ -52,6 +53,8 @@ struct AlignmentReport {
   std::optional<CameraAlignmentState> in_force;
   std::optional<CameraAlignmentState> proposed;
   ProposalState state = ProposalState::None;
+  align::WorkStep step = align::WorkStep::None;  ///< of what is being computed
+  double share = 0;                              ///< part of the step that is done: 0 to 1
   std::string refusal;    ///< reason of the last command's failure; empty: it succeeded
   std::size_t steps = 0;  ///< changes that undo_alignment can undo
   std::optional<optics::Vec2> picked;  ///< pixel set by pick_pixel for the next mark_point

@@ -146,7 +146,10 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
   X(ForgetPoint, 30, "forget_point", Integrator,                                                   \
     "Discards the point marked for a camera at these coordinates, machine frame", kCameraArgument, \
     coordinate_argument("x", "to the right"), coordinate_argument("y", "forward"),                 \
-    coordinate_argument("z", "up"))
+    coordinate_argument("z", "up"))                                                                \
+  X(CancelAlignment, 31, "cancel_alignment", Integrator,                                           \
+    "Cancels the alignment or point being computed for a camera; nothing of it is kept",           \
+    kCameraArgument)
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

@@ -20,14 +20,13 @@ bool is_thermal(const Picture& picture) { return picture.format == PixelFormat::
 class Attempt {
  public:
   Attempt(const SimultaneousPictures& pictures, const optics::BallProjection& reference,
-          SoughtCamera sought, const RegistrationProgress& progress)
+          SoughtCamera sought, const WorkProgress& progress)
       : pictures_(pictures), ball_(reference), sought_(std::move(sought)), progress_(progress) {
     sought_.picture = pictures_.camera.front();
   }
 
   Result<CameraRegistration> by_features() const {
-    progress_("matching features");
-    return named(register_by_features({pictures_.reference.front(), ball_}, sought_),
+    return named(register_by_features({pictures_.reference.front(), ball_}, sought_, progress_),
                  RegistrationMethod::Features);
   }
   Result<CameraRegistration> by_gradients() const {
@@ -35,7 +34,7 @@ class Attempt {
   }
   /// Refines each rotation that explains the light; the one on which edges agree is right.
   Result<CameraRegistration> by_light() const {
-    progress_("matching the process' light");
+    if (auto wanted = progress_.at(WorkStep::Light); !wanted) return tl::unexpected(wanted.error());
     const auto rough = register_by_light(pictures_, ball_, sought_);
     if (!rough) return tl::unexpected(rough.error());
     std::optional<CameraRegistration> found;
@@ -71,10 +70,9 @@ class Attempt {
 
  private:
   Result<CameraRegistration> by_gradients(const optics::Mat3& start) const {
-    progress_("matching edges");
     SoughtCamera near = sought_;
     near.camera.registration = start;
-    return named(register_by_gradients({pictures_.reference.front(), ball_}, near),
+    return named(register_by_gradients({pictures_.reference.front(), ball_}, near, progress_),
                  RegistrationMethod::Gradients);
   }
   static Result<CameraRegistration> named(const Result<Registration>& found,
@@ -85,7 +83,7 @@ class Attempt {
   const SimultaneousPictures& pictures_;
   const optics::BallProjection& ball_;
   SoughtCamera sought_;
-  const RegistrationProgress& progress_;
+  const WorkProgress& progress_;
 };
 
 }  // namespace
@@ -93,7 +91,7 @@ class Attempt {
 Result<CameraRegistration> register_camera(const SimultaneousPictures& pictures,
                                            const optics::BallProjection& reference,
                                            const SoughtCamera& sought, RegistrationMethod method,
-                                           const RegistrationProgress& progress) {
+                                           const WorkProgress& progress) {
   if (pictures.reference.empty() || pictures.camera.empty()) {
     return fail("a registration needs a picture of each camera");
   }

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <string>
 
 #include "proc/align/register/light/light_registration.h"
 #include "proc/align/register/registration.h"
+#include "proc/align/work_progress.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::align {
@@ -25,16 +24,14 @@ struct CameraRegistration {
   RegistrationMethod method = RegistrationMethod::Auto;  ///< the last method applied, never Auto
 };
 
-/// Called before each step with its description, to show progress to the user.
-using RegistrationProgress = std::function<void(const std::string&)>;
-
 /// Finds the sought camera's rotation by a method or the best sequence of methods. `pictures`: of
 /// fixed cameras, one each at least; methods other than light use the first ones. Light alone is
 /// accurate to some degrees only, so that Light, too, is refined by gradients. Reentrant. Error:
-/// those of the methods tried; light that several rotations explain, whose edges agree, too.
+/// those of the methods tried; light that several rotations explain, whose edges agree, too;
+/// cancelled by `progress`.
 Result<CameraRegistration> register_camera(const SimultaneousPictures& pictures,
                                            const optics::BallProjection& reference,
                                            const SoughtCamera& sought, RegistrationMethod method,
-                                           const RegistrationProgress& progress);
+                                           const WorkProgress& progress);
 
 }  // namespace orbwatch::align

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -17,7 +19,7 @@ namespace {
 
 using orbwatch::tests::picture_of_mat;
 
-/// Watched cameras that deliver one picture again and again.
+/// Watched cameras that deliver one picture again and again, and can be told to deliver none.
 class OnePicture : public WatchedCameras {
  public:
   explicit OnePicture(cv::Mat picture) : picture_(std::move(picture)) {}
@@ -37,8 +39,21 @@ class OnePicture : public WatchedCameras {
     reader(std::move(pictures));
   }
   Result<std::vector<std::vector<RecordedPicture>>> record(
-      const std::vector<std::size_t>& cameras, std::size_t count,
-      std::chrono::seconds /*patience*/) override {
+      const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds /*patience*/,
+      const align::WorkProgress& progress) override {
+    if (auto wanted = progress.at(align::WorkStep::Record, 0.25); !wanted) {
+      return tl::unexpected(wanted.error());
+    }
+    {
+      std::unique_lock lock(mutex_);
+      ++waiting_;
+      changed_.notify_all();
+      const auto delivers = [&] { return delivers_; };
+      // A computation that does not end at once ignores its cancellation, too.
+      if (!is_deaf) changed_.wait(lock, progress.stop(), delivers);
+      if (is_deaf) changed_.wait(lock, delivers);
+      if (!delivers_) return fail("cancelled");
+    }
     std::vector<std::vector<RecordedPicture>> records(cameras.size());
     for (auto& record : records) {
       for (std::size_t n = 0; n < count; ++n) {
@@ -47,11 +62,27 @@ class OnePicture : public WatchedCameras {
     }
     return records;
   }
-  void cancel_records() override {}
   const std::shared_ptr<hal::SharedThreads>& threads() const override { return threads_; }
+
+  void set_delivers(bool delivers) {
+    const std::lock_guard lock(mutex_);
+    delivers_ = delivers;
+    changed_.notify_all();
+  }
+  /// Returns once record() was called `count` times.
+  void wait_for_calls(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return waiting_ >= count; });
+  }
+
+  bool is_deaf = false;  ///< set before the first call
 
  private:
   cv::Mat picture_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  bool delivers_ = true;
+  int waiting_ = 0;  ///< calls of record()
   const std::shared_ptr<hal::SharedThreads> threads_ = hal::SharedThreads::alone();
 };
 
@@ -114,6 +145,49 @@ TEST_F(AlignmentDeskTest, RefusesAnUnsureBallInTheWordingOfEveryCommand) {
   EXPECT_EQ(report.refusal, found.error().message);
   EXPECT_EQ(desk->accept(0), CommandResult::NotPossible);
   EXPECT_TRUE(accepted.entries.empty());
+}
+
+TEST_F(AlignmentDeskTest, ACancelledSearchEndsAndLeavesWhatWasBefore) {
+  const optics::Vec2 centre = desk->report(0).in_force->outline.centre;
+  ASSERT_EQ(desk->move_outline(0, {centre.u + 3, centre.v}), CommandResult::Done);
+  watch.set_delivers(false);
+  ASSERT_EQ(desk->detect(0), CommandResult::Done);
+  watch.wait_for_calls(1);
+  EXPECT_EQ(desk->report(0).state, ProposalState::Working);
+  EXPECT_EQ(desk->report(0).step, align::WorkStep::Record);
+  EXPECT_EQ(desk->report(0).share, 0.25);
+  EXPECT_EQ(desk->detect(0), CommandResult::Busy);
+  ASSERT_EQ(desk->cancel(0), CommandResult::Done);
+  const AlignmentReport report = desk->report(0);
+  EXPECT_EQ(report.state, ProposalState::Ready);
+  EXPECT_EQ(report.step, align::WorkStep::None);
+  EXPECT_EQ(report.steps, 1U);
+  EXPECT_EQ(report.refusal, "");
+  EXPECT_NEAR(report.proposed->outline.centre.u, centre.u + 3, 1e-9);
+  EXPECT_EQ(desk->cancel(0), CommandResult::NotPossible);
+  EXPECT_EQ(desk->cancel(1), CommandResult::ArgumentOutOfRange);
+  // The next one is accepted at once, and works.
+  ASSERT_EQ(desk->detect(0), CommandResult::Done);
+  watch.wait_for_calls(2);
+  watch.set_delivers(true);
+  EXPECT_EQ(report_after_work().refusal, found_outline(picture_of_mat(noise)).error().message);
+}
+
+TEST_F(AlignmentDeskTest, NothingIsKeptOfACancelledSearchThatEndsLater) {
+  watch.is_deaf = true;
+  watch.set_delivers(false);
+  ASSERT_EQ(desk->mark(0, {1, 2, 3}), CommandResult::Done);
+  watch.wait_for_calls(1);
+  ASSERT_EQ(desk->cancel(0), CommandResult::Done);
+  const optics::Vec2 centre = desk->report(0).in_force->outline.centre;
+  ASSERT_EQ(desk->pick(0, {centre.u + 10, centre.v}), CommandResult::Done);
+  ASSERT_EQ(desk->mark(0, {4, 5, 6}), CommandResult::Done) << "accepted while the other one ends";
+  watch.set_delivers(true);
+  const AlignmentReport report = report_after_work();
+  EXPECT_EQ(report.state, ProposalState::None);
+  EXPECT_EQ(report.refusal, "");
+  ASSERT_EQ(report.points.size(), 1U);
+  EXPECT_EQ(report.points[0].point.x, 4);
 }
 
 TEST_F(AlignmentDeskTest, ForgetsOnePointByItsCoordinates) {

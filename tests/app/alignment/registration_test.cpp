@@ -125,8 +125,7 @@ TEST(RegisterCamera, ProposesThePoseOfACameraThatHasOne) {
   stated.outline.reset();
   stated.pose = optics::Pose{truth.axes * transposed(turn), turn * truth.position};
   const align::SimultaneousPictures pictures{{pair.reference().picture}, {pair.unknown().picture}};
-  const auto found =
-      register_camera(pair.rig, pair.known, stated, pictures, {}, [](const auto&) {});
+  const auto found = register_camera(pair.rig, pair.known, stated, pictures, {}, {});
   ASSERT_TRUE(found) << found.error().message;
   const AlignmentProposal& proposal = found->proposal;
   EXPECT_EQ(proposal.alignment.camera, "B");

@@ -254,7 +254,8 @@ TEST_F(Dispatch, AlignsNoCameraThatIsNotThere) {
   for (const CommandCode code :
        {CommandCode::DetectBall, CommandCode::RegisterCamera, CommandCode::CorrectAlignment,
         CommandCode::AcceptAlignment, CommandCode::DiscardAlignment, CommandCode::LearnCleanBall,
-        CommandCode::MarkPoint, CommandCode::ForgetPoints, CommandCode::PlaceCamera}) {
+        CommandCode::MarkPoint, CommandCode::ForgetPoints, CommandCode::PlaceCamera,
+        CommandCode::CancelAlignment}) {
     EXPECT_EQ(command(code), CommandResult::ArgumentOutOfRange);
   }
   EXPECT_EQ(restarts, 0);

@@ -20,7 +20,7 @@ using CameraWatchTest = tests::TwoWatchedCameras;
 TEST_F(CameraWatchTest, WhatIsRecordedOfSeveralCamerasIsOfTheSameMoments) {
   constexpr std::size_t kCount = 5;
   auto recorded = std::async(std::launch::async, [&] {
-    return watch->record({0, 1}, kCount, std::chrono::seconds(60));
+    return watch->record({0, 1}, kCount, std::chrono::seconds(60), {});
   });
   for (hal::FrameSet set;
        recorded.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready;) {

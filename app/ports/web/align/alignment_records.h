@@ -74,6 +74,8 @@ void visit(Visitor& v, SentAlignment& camera) {
   v.required("height", report.height, "Height of the camera's picture", "px");
   v.required("is_watched", report.is_watched, "Pictures and commands are possible");
   v.required("state", report.state, "State of the proposal");
+  v.required("step", report.step, "Step of the computation, while the state is working");
+  v.required("share", report.share, Range::between(0, 1), "Part of the step that is done");
   v.required("refusal", report.refusal, "Reason why the last command failed; empty: it succeeded");
   v.required("steps", report.steps, "Number of changes that undo_alignment can undo");
   v.required("in_force", report.in_force, "Alignment in force; null: none");

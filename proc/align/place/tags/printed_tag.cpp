@@ -26,14 +26,14 @@ bool is_square(const std::array<Vec3, 4>& corners) {
 }
 
 Result<int> mark_tags(const Picture& picture, std::span<const PrintedTag> tags,
-                      UnplacedCamera& camera, PlaceRequest& request) {
+                      UnplacedCamera& camera, PlaceRequest& request, const WorkProgress& progress) {
   std::optional<optics::Lens> lens;
   if (!camera.focal_unknown) {
     const auto known = optics::Lens::make(camera.lens);
     if (!known) return tl::unexpected(known.error());
     lens = *known;
   }
-  const auto found = find_tags(picture, camera.outline, lens);
+  const auto found = find_tags(picture, camera.outline, lens, progress);
   if (!found) return tl::unexpected(found.error());
   int shown = 0;
   for (const FoundTag& tag : *found) {

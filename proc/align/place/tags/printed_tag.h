@@ -6,6 +6,7 @@
 #include <span>
 
 #include "proc/align/place/placement.h"
+#include "proc/align/work_progress.h"
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
 #include "proc/optics/lens.h"
@@ -36,6 +37,7 @@ bool is_square(const std::array<optics::Vec3, 4>& corners);
 /// points; returns the number of tags found. Takes seconds. Reentrant. Error: those of
 /// optics::Lens::make and find_tags().
 Result<int> mark_tags(const Picture& picture, std::span<const PrintedTag> tags,
-                      UnplacedCamera& camera, PlaceRequest& request);
+                      UnplacedCamera& camera, PlaceRequest& request,
+                      const WorkProgress& progress = {});
 
 }  // namespace orbwatch::align

@@ -54,7 +54,8 @@ int view_side(const optics::Outline& outline) {
 }  // namespace
 
 Result<std::vector<FoundTag>> find_tags(const Picture& picture, const optics::Outline& outline,
-                                        const std::optional<optics::Lens>& lens) {
+                                        const std::optional<optics::Lens>& lens,
+                                        const WorkProgress& progress) {
   if (auto ellipse = optics::check_ellipse(outline); !ellipse) {
     return tl::unexpected(ellipse.error());
   }
@@ -67,7 +68,13 @@ Result<std::vector<FoundTag>> find_tags(const Picture& picture, const optics::Ou
   const cv::Mat luminance = eight_bit(luminance_of(picture));
   TagDetector detector;
   std::map<int, Seen> found;
-  for (const optics::ViewProjection& view : views_all_around(view_side(outline))) {
+  const std::vector<optics::ViewProjection> views = views_all_around(view_side(outline));
+  for (std::size_t n = 0; n < views.size(); ++n) {
+    const double share = static_cast<double>(n) / static_cast<double>(views.size());
+    if (auto wanted = progress.at(WorkStep::Tags, share); !wanted) {
+      return tl::unexpected(wanted.error());
+    }
+    const optics::ViewProjection& view = views[n];
     for (const TagInView& in_view : detector.detect(mirror_view(luminance, *ball, view))) {
       const auto tag = seen(in_view, *ball, view);
       if (!tag) continue;

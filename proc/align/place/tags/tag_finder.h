@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "proc/align/work_progress.h"
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
 #include "proc/optics/lens.h"
@@ -22,8 +23,9 @@ struct FoundTag {
 /// Finds the tags in a ball's picture, sorted by id, each once, in un-mirrored views of the
 /// camera's own surroundings; neither its pose nor distances need be known. `lens`: none if the
 /// camera is not calibrated. Takes seconds. Reentrant. Error: the outline is not a ball's, or the
-/// picture's size is not the lens's.
+/// picture's size is not the lens's; cancelled by `progress`.
 Result<std::vector<FoundTag>> find_tags(const Picture& picture, const optics::Outline& outline,
-                                        const std::optional<optics::Lens>& lens);
+                                        const std::optional<optics::Lens>& lens,
+                                        const WorkProgress& progress = {});
 
 }  // namespace orbwatch::align

@@ -90,21 +90,28 @@ Result<RotationRefinement> refined(const Pictures& pictures, const Features& see
 }  // namespace
 
 Result<Registration> register_by_features(const ReferenceCamera& reference,
-                                          const SoughtCamera& sought) {
+                                          const SoughtCamera& sought,
+                                          const WorkProgress& progress) {
   const auto unturned = turned(sought, Mat3{}, *sought.camera.outline);
   if (!unturned) return tl::unexpected(unturned.error());
   const Pictures pictures{stretched(luminance_of(reference.picture)),
                           stretched(luminance_of(sought.picture)),
                           std::min({kFinestFeatureView, best_resolution(reference.ball),
                                     1.3 * best_resolution(*unturned)})};
-  const auto seen = features(pictures.reference, reference.ball, pictures.pixels_per_degree);
+  const auto at = [&](double share) { return progress.at(WorkStep::Features, share); };
+  const auto seen = at(0).and_then(
+      [&] { return features(pictures.reference, reference.ball, pictures.pixels_per_degree); });
   if (!seen) return tl::unexpected(seen.error());
-  const auto first = first_estimate(pictures, *seen, reference.ball, sought);
+  const auto first =
+      at(0.25).and_then([&] { return first_estimate(pictures, *seen, reference.ball, sought); });
   if (!first) return tl::unexpected(first.error());
-  const auto rough = refine_rotation(first->inliers, reference.ball, sought,
-                                     {first->rotation, *sought.camera.outline, first->room});
+  const auto rough = at(0.5).and_then([&] {
+    return refine_rotation(first->inliers, reference.ball, sought,
+                           {first->rotation, *sought.camera.outline, first->room});
+  });
   if (!rough) return tl::unexpected(rough.error());
-  const auto fine = refined(pictures, *seen, reference.ball, sought, rough->state);
+  const auto fine = at(0.75).and_then(
+      [&] { return refined(pictures, *seen, reference.ball, sought, rough->state); });
   if (!fine) return tl::unexpected(fine.error());
   const auto ball = turned(sought, fine->state.rotation, fine->state.outline);
   if (!ball) return tl::unexpected(ball.error());

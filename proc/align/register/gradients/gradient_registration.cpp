@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -155,10 +156,13 @@ std::optional<Mat3> covariance(const GradientSimilarity& similarity, const Summi
   return inverted * spread * inverted;
 }
 
-Result<Outcome> follow(const Scenery& scenery, const Mat3& start) {
+/// `on_round` is called before each round; its error ends the search.
+Result<Outcome> follow(const Scenery& scenery, const Mat3& start,
+                       const std::function<Result<>()>& on_round) {
   Outcome outcome;
   outcome.rotation = start;
   for (const double smoothing : kFiner) {
+    if (auto wanted = on_round(); !wanted) return tl::unexpected(wanted.error());
     const auto field = scenery.camera(outcome.rotation, smoothing);
     if (!field) return tl::unexpected(field.error());
     const GradientSimilarity similarity(scenery.reference(smoothing).samples(kDirections), *field);
@@ -178,14 +182,19 @@ Result<Outcome> follow(const Scenery& scenery, const Mat3& start) {
 }
 
 /// The best of all candidates, if no other is close to it.
-Result<Outcome> best_of(const Scenery& scenery, const Mat3& start) {
+Result<Outcome> best_of(const Scenery& scenery, const Mat3& start, const WorkProgress& progress) {
   const auto field = scenery.camera(start, kCoarse);
   if (!field) return tl::unexpected(field.error());
   const std::vector<Summit> summits =
       coarse_search({scenery.reference(kCoarse).samples(kCoarseDirections), *field});
+  const auto rounds = static_cast<double>(summits.size() * kFiner.size());
+  int round = 0;
+  Result<> wanted;
+  const auto on_round = [&] { return wanted = progress.at(WorkStep::Edges, round++ / rounds); };
   std::vector<Outcome> outcomes;
   for (const Summit& summit : summits) {
-    const auto outcome = follow(scenery, rotation_about(summit.turn) * start);
+    const auto outcome = follow(scenery, rotation_about(summit.turn) * start, on_round);
+    if (!wanted) return tl::unexpected(wanted.error());
     if (outcome) outcomes.push_back(*outcome);
   }
   if (outcomes.empty()) return fail("the cameras' edges agree nowhere near the start");
@@ -206,10 +215,12 @@ Result<Outcome> best_of(const Scenery& scenery, const Mat3& start) {
 }  // namespace
 
 Result<Registration> register_by_gradients(const ReferenceCamera& reference,
-                                           const SoughtCamera& sought) {
+                                           const SoughtCamera& sought,
+                                           const WorkProgress& progress) {
+  if (auto wanted = progress.at(WorkStep::Edges); !wanted) return tl::unexpected(wanted.error());
   const auto scenery = Scenery::make(reference, sought);
   if (!scenery) return tl::unexpected(scenery.error());
-  const auto best = best_of(*scenery, sought.camera.registration);
+  const auto best = best_of(*scenery, sought.camera.registration, progress);
   if (!best) {
     return fail(best.error().message +
                 ": start nearer, by marking points or from process light, or state the room's "

@@ -284,9 +284,8 @@ TEST(RegistrationGate, ProcessLightIsNoWorseByMorePictures) {
     const auto colour = first_pictures(folder / "A", count);
     const auto thermal = first_pictures(folder / "C", count);
     const align::SoughtCamera sought{picture_of_mat(thermal.front()), *rig, camera, 0};
-    const auto found =
-        align::register_camera({pictures_of_mats(colour), pictures_of_mats(thermal)}, ball, sought,
-                               align::RegistrationMethod::Auto, [](const std::string&) {});
+    const auto found = align::register_camera({pictures_of_mats(colour), pictures_of_mats(thermal)},
+                                              ball, sought, align::RegistrationMethod::Auto, {});
     ASSERT_TRUE(found) << count << " pictures: " << found.error().message;
     EXPECT_LE(degrees(align::angle_between(found->registration.rotation, truth)), 0.4)
         << count << " pictures";

@@ -20,16 +20,16 @@ constexpr int kMoments = 20;
 constexpr Vec3 kPool{0.3, -0.6, -0.7};  // a direction
 
 /// A place in the room, and its light.
-struct Light {
+struct ProcessLight {
   Vec3 direction;
   double closeness;
 };
 
 /// A melt pool that moves little, and sparks, at each moment.
-std::vector<std::vector<Light>> process_light(std::mt19937_64& random) {
+std::vector<std::vector<ProcessLight>> process_light(std::mt19937_64& random) {
   std::normal_distribution<double> any;
   const Vec3 pool = normalized(kPool);
-  std::vector<std::vector<Light>> moments(kMoments);
+  std::vector<std::vector<ProcessLight>> moments(kMoments);
   for (int m = 0; m < kMoments; ++m) {
     const double phase = 2 * M_PI * m / kMoments;
     moments[m].push_back(
@@ -44,11 +44,11 @@ std::vector<std::vector<Light>> process_light(std::mt19937_64& random) {
 
 /// Pictures that a camera takes of the light.
 std::vector<cv::Mat> seen_by(const optics::BallProjection& ball, int width, int height, int type,
-                             const std::vector<std::vector<Light>>& moments) {
+                             const std::vector<std::vector<ProcessLight>>& moments) {
   std::vector<cv::Mat> pictures;
   for (const auto& lights : moments) {
     cv::Mat picture(height, width, type, cv::Scalar(40));
-    for (const Light& light : lights) {
+    for (const ProcessLight& light : lights) {
       const auto at = ball.pixel(light.direction, light.closeness);
       if (!at) continue;
       constexpr int kShift = 4;
@@ -75,8 +75,8 @@ optics::RigCamera camera_beside_the_ball(int width, int height, double radius) {
 
 /// The rotations that explain the light of a process to a colour camera and to a thermal one, whose
 /// registration is `truth`.
-Result<std::vector<align::Registration>> by_light(const optics::Mat3& truth,
-                                                  const std::vector<std::vector<Light>>& moments) {
+Result<std::vector<align::Registration>> by_light(
+    const optics::Mat3& truth, const std::vector<std::vector<ProcessLight>>& moments) {
   const optics::Rig rig{{{}, 50}, {}, {}};
   const optics::RigCamera colour = camera_beside_the_ball(800, 600, 200);
   const align::SoughtCamera thermal{{}, rig, camera_beside_the_ball(320, 256, 100), 0};
@@ -98,7 +98,7 @@ TEST(LightRegistration, FindsTheRotationBesideAPoolThatStaysInItsPlace) {
 }
 
 TEST(LightRegistration, IsNotSureByAPoolThatFlickersInOnePlace) {
-  std::vector<std::vector<Light>> moments(40);
+  std::vector<std::vector<ProcessLight>> moments(40);
   for (std::size_t m = 0; m < moments.size(); m += 5) {
     for (const std::size_t lit : {m, m + 1}) moments[lit] = {{normalized(kPool), 0.1}};
   }

@@ -10,6 +10,7 @@ import { Register } from "./register.js";
 import { SceneView } from "./scene_view.js";
 import { statesOf, Step } from "./steps.js";
 import { Watched } from "./watched.js";
+import { Working } from "./working.js";
 
 const kPauseMs = 300;  // period of requests to the appliance
 const kNudgeDeg = 0.05;
@@ -36,6 +37,7 @@ export class Align {
   #cameras = [];
   #newest = [];  // cameras of the newest status
   #isRunning = false;
+  #isCancelled = false;  // the last command cancelled a computation
 
   // `descriptions` of a camera's figures.
   constructor(root, faults, descriptions) {
@@ -56,6 +58,7 @@ export class Align {
     this.blocked = element("p", { id: "not-acceptable", className: "wrong" });
     this.buttons.accept.setAttribute("aria-describedby", this.blocked.id);
     this.facts = element("p", { className: "where" });
+    this.working = new Working(give);
     this.register = new Register(give);
     this.scene = new SceneView(give);
     this.watched = new Watched(descriptions);
@@ -73,7 +76,7 @@ export class Align {
     const { accept, undo, discard, revert } = this.buttons;
     return element("div", { className: "seen" },
       element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)), this.editor.root,
-      buttonsOf(accept, undo, discard, revert), this.blocked, this.said, this.refused, this.facts);
+      this.working.root, buttonsOf(accept, undo, discard, revert), this.blocked, this.said, this.refused, this.facts);
   }
 
   #makeSteps(give) {
@@ -109,6 +112,7 @@ export class Align {
   async #give(name, values = {}) {
     if (!this.#camera) return "";
     const why = await command(name, { camera: this.#camera.index, ...values });
+    this.#isCancelled = name === "cancel_alignment" && !why;
     await this.#look().catch((error) => this.#waitAfter(error));
     setText(this.refused, why ? texts.refused(this.#camera.refusal || why) : "");
     return why;
@@ -179,6 +183,7 @@ export class Align {
 
   #choose() {
     setText(this.refused, "");
+    this.#isCancelled = false;
     this.editor.forget();
     this.place.forgetPixel();
     this.editor.freshness.forget();
@@ -189,6 +194,7 @@ export class Align {
     const { proposed, in_force: inForce, state } = camera;
     const isWorking = state === this.states.working;
     this.editor.show(camera);
+    this.working.show(camera, isWorking);
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
     this.place.show(camera, isWorking);
@@ -213,6 +219,7 @@ export class Align {
   #words({ is_watched: isWatched, state, state_text: text, refusal, proposed, in_force: inForce }) {
     if (!isWatched) return texts.align.notWatched;
     if (refusal) return texts.align.refusal(refusal);
+    if (this.#isCancelled) return texts.align.cancelled;
     if (state === this.states.ready) return texts.align.proposal(proposed.method, proposed.quality);
     if (state === this.states.working) return text;
     return inForce?.method ? texts.align.inForce(inForce.method, inForce.quality)

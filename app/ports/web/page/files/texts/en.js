@@ -141,6 +141,8 @@ export const texts = {
       `Rotation: ${yaw.toFixed(2)}°, ${pitch.toFixed(2)}°, ${roll.toFixed(2)}°.`,
     proposal: (method, quality) => `Proposed: ${method}, ${quality}`,
     inForce: (method, quality) => `In force: ${method}${quality ? `, ${quality}` : ""}`,
+    cancel: "Cancel",
+    cancelled: "Cancelled: nothing is changed",
     ofRig: "In force: from the rig file",
     refusal: (why) => `Refused: ${why}`,
     waiting: (why) => `No answer (${why}): trying again`,
