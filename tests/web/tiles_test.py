@@ -5,6 +5,7 @@ Folders: app/ports/web/page/files/live app/ports/web/page/files/elements
 """
 
 import unittest
+import urllib.parse
 
 from selenium.webdriver.common.by import By
 
@@ -15,6 +16,14 @@ VIEWS = ["panorama", "door", "heat", "process"]
 # Number of tiles beside each other and below each other that fill the screen, by layout.
 PLACES = {"1": (1, 1), "2": (2, 1), "4": (2, 2), "6": (3, 2), "9": (3, 3)}
 CLOSE_PX = 2
+NOTE_STREAMS = """{
+  const fetch = window.fetch;
+  window.streams = [];
+  window.fetch = (...request) => {
+    if (String(request[0]).startsWith('api/v1/live?')) window.streams.push(String(request[0]));
+    return fetch(...request);
+  };
+}"""
 
 
 class Tiles(PageCase):
@@ -22,7 +31,9 @@ class Tiles(PageCase):
         self.browser.show_on(width, height)
         self.browser.get("about:blank")
         self.browser.get(f"{self.appliance.address}#/live")
-        eventually("pictures are shown", lambda: all(self.browser.picture_numbers().values() or [0]))
+        # A phone shows one tile.
+        are_there = any if width < 600 else all
+        eventually("pictures are shown", lambda: are_there(self.browser.picture_numbers().values() or [0]))
         eventually("legends and locks", lambda: self.browser.find_elements(By.CSS_SELECTOR, "#tiles .legend")
                    and any(lock.is_displayed() for lock in self.browser.find_elements(By.CSS_SELECTOR, ".locked")))
 
@@ -62,6 +73,39 @@ class Tiles(PageCase):
                     self.assertAlmostEqual(tile[3] * down, height, delta=20 * down)
                 self.expect_pictures_as_wide_as_they_are_sent()
                 self.expect_fits_its_width()
+
+    def streamed(self):
+        """Views that the page asked for last."""
+        path = self.browser.execute_script("return window.streams.at(-1)")
+        return urllib.parse.parse_qs(urllib.parse.urlsplit(path).query).get("view", [])
+
+    def test_tiles_out_of_sight_are_not_streamed(self):
+        self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": NOTE_STREAMS})
+        self.open(1440, 900)
+        self.assertEqual(self.streamed(), VIEWS)
+        self.choose("1")
+        eventually("the first view alone", lambda: self.streamed() == VIEWS[:1])
+        self.expect_only("panorama")
+        self.browser.execute_script("document.querySelectorAll('#tiles figure')[2].scrollIntoView()")
+        eventually("the third view alone", lambda: self.streamed() == ["heat"])
+        self.expect_only("heat")
+        self.choose("4")
+        eventually("all views", lambda: self.streamed() == VIEWS)
+        before = self.browser.picture_numbers()
+        eventually("pictures of all", lambda: all(
+            number > before[view] for view, number in self.browser.picture_numbers().items()))
+        self.assertEqual(self.browser.complaints(), [])
+
+    def expect_only(self, view):
+        """The page shows new pictures of this view, and of no other."""
+        def advanced_from(number):
+            return lambda: self.browser.picture_numbers()[view] > number
+
+        eventually("a first one", advanced_from(self.browser.picture_numbers()[view]))
+        before = self.browser.picture_numbers()
+        eventually("more", advanced_from(before[view] + 10))
+        now = self.browser.picture_numbers()
+        self.assertEqual({name for name in now if now[name] != before[name]}, {view})
 
     def test_one_view_is_large_and_the_others_small(self):
         self.open(1440, 900)

@@ -8,7 +8,7 @@ const kRetryMs = 500;
 const kSilenceMs = 3000;
 
 export class Stream {
-  #views = [];
+  #views = null; // names; null before the first choice
   #abort = null;
   #retry = 0;
   #silence = 0;
@@ -21,6 +21,7 @@ export class Stream {
   }
 
   choose(views) {
+    if (JSON.stringify(views) === JSON.stringify(this.#views)) return;
     this.#views = [...views];
     this.#restart();
   }

@@ -4,6 +4,7 @@ import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { texts } from "../texts.js";
 import { Layouts } from "./layouts.js";
+import { SeenTiles } from "./seen_tiles.js";
 import { Tile } from "./tile.js";
 
 export class Live {
@@ -17,6 +18,7 @@ export class Live {
     const tiles = element("div", { id: "tiles" });
     this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand, () => this.#enlarge(name)));
     this.layouts = new Layouts(tiles);
+    this.seen = new SeenTiles(onChoice);
     const help = element("details", {}, element("summary", {}, texts.help), element("p", {}, texts.liveHelp));
     root.append(element("div", { className: "choices" }, this.choices, this.layouts.root, help), tiles);
     views.addEventListener("change", () => this.#describe());
@@ -34,11 +36,10 @@ export class Live {
       const box = element("input", { type: "checkbox", checked: true, name });
       box.addEventListener("change", () => this.#choose(name, box.checked));
       this.choices.append(element("label", {}, box, " ", name));
-      this.tiles.get(name);
+      this.seen.watch(this.tiles.get(name).root, name);
     }
     this.#describe();
     this.#arrange();
-    this.onChoice();
   }
 
   #describe() {
@@ -51,7 +52,12 @@ export class Live {
     return !this.root.hidden;
   }
 
+  // Names of those that are streamed.
   get views() {
+    return this.#shownNames().filter((name) => this.seen.has(name));
+  }
+
+  #shownNames() {
     return [...(this.#chosen ?? [])].filter(([, is]) => is).map(([name]) => name);
   }
 
@@ -72,7 +78,7 @@ export class Live {
   }
 
   #arrange() {
-    const { views } = this;
+    const views = this.#shownNames();
     this.layouts.fit(views.length);
     const large = views.includes(this.#large) ? this.#large : views[0];
     for (const name of views) this.tiles.get(name).root.classList.toggle("large", name === large);
