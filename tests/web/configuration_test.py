@@ -133,6 +133,48 @@ class ConfigurationPage(PageCase):
                          self.areas()["demo-recipe.toml"].get_attribute("value"))
         self.assertEqual(self.appliance.recipe.read_bytes(), by_hand)
 
+    def part(self, line):
+        """Part of both changes of a file that begins at this line of it."""
+        return self.browser.find_element(
+            By.XPATH, f"//*[@id='configuration']//fieldset[legend='From line {line}']")
+
+    def chosen(self):
+        return self.browser.execute_script("""
+            return [...document.querySelectorAll('#configuration fieldset')]
+              .map((part) => part.querySelector('input:checked')?.value ?? null);""")
+
+    def test_configuration_of_two_editors_is_merged_by_parts(self):
+        lines = self.recipe.decode().split("\r\n")
+        name = next(n for n, line in enumerate(lines) if line.startswith("name = "))
+        theirs, merged = [[*lines] for _ in range(2)]
+        theirs[name] = 'name = "theirs"'
+        theirs[-1] = "# theirs, at the end"
+        self.type_into("demo-recipe.toml", "in its place", "in its own place")
+        self.type_into("demo-recipe.toml", lines[name], 'name = "mine"')
+        self.appliance.recipe.write_bytes("\r\n".join(theirs).encode())
+        self.press("Try out")
+        eventually("the page says who changed it and when",
+                   lambda: "demo-recipe.toml was changed by" in self.said())
+        eventually("what only one has changed is chosen", lambda: self.chosen() == ["mine", None, "theirs"])
+        part = self.part(name + 1)
+        self.assertEqual([one.text for one in part.find_elements(By.TAG_NAME, "pre")],
+                         [lines[name], 'name = "theirs"', 'name = "mine"'])
+        self.browser.keep_picture("configuration-merge")
+        take = part.find_element(By.XPATH, "ancestor::section[@class='merge']//button")
+        self.assertFalse(take.is_enabled())
+        part.find_element(By.CSS_SELECTOR, "[value=mine]").click()
+        take.click()
+        self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, "#configuration .merge:not([hidden])"), [])
+        self.press("Try out")
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != self.checksum and self.appliance.configuration()["trial"]))
+        self.press("Keep it")
+        merged[0] = lines[0].replace("in its place", "in its own place")
+        merged[name] = 'name = "mine"'
+        merged[-1] = theirs[-1]
+        eventually("the file has both changes", lambda: self.appliance.recipe.read_bytes().decode()
+                   == "\r\n".join(merged))
+
     def test_configuration_goes_back_when_asked(self):
         self.try_another_name(self.name_in_file(), "another")
         self.press("Revert now")

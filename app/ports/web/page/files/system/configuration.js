@@ -4,6 +4,7 @@ import { Card } from "../elements/card.js";
 import { downloadLink } from "../elements/download.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { Merge } from "./merge.js";
 import { Trial } from "./trial.js";
 
 // Text fields support only \n as line end.
@@ -22,8 +23,9 @@ class FileEditor {
     const download = downloadLink(name.split("/").pop(), () => this.text);
     this.reload = element("button", { type: "button", hidden: true }, texts.reloadFile);
     this.reload.addEventListener("click", () => this.#takeFromDisk());
+    this.merge = new Merge(name, (merged) => this.#takeMerged(merged));
     this.root = element("details", {}, element("summary", {}, name, " ", this.mark), this.area,
-      element("p", {}, download, " ", this.reload));
+      this.merge.root, element("p", {}, download, " ", this.reload));
     this.area.addEventListener("input", () => this.#showMark());
     this.take(text);
   }
@@ -49,6 +51,13 @@ class FileEditor {
     this.take(this.onDisk);
   }
 
+  #takeMerged(text) {
+    this.basis = this.checksum;
+    this.take(this.onDisk);
+    this.area.value = text;
+    this.#showMark();
+  }
+
   get text() {
     const typed = this.area.value;
     if (typed === plain(this.base)) return this.base;
@@ -62,6 +71,8 @@ class FileEditor {
   #showMark() {
     const isOutdated = this.basis !== this.checksum;
     this.reload.hidden = !isOutdated;
+    if (isOutdated) this.merge.show(plain(this.base), plain(this.onDisk), this.area.value);
+    else this.merge.hide();
     setText(this.mark, isOutdated ? texts.changedElsewhere : this.isChanged ? texts.changed : "");
   }
 }

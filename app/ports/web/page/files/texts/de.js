@@ -204,6 +204,16 @@ export const texts = {
   changed: "(geändert)",
   changedElsewhere: "(hier geändert, und seit dem Lesen von einem anderen Benutzer)",
   reloadFile: "Die Änderung verwerfen und die jetzige Datei zeigen",
+  merge: {
+    help: "Beide Änderungen dieser Datei: wählen Sie für jeden Teil, was gilt. Gesendet wird der Text durch Prüfen " +
+      "oder Ausprobieren.",
+    line: (line) => `Ab Zeile ${line}`,
+    base: "Davor",
+    theirs: "Vom anderen Benutzer",
+    mine: "Hier geändert",
+    nothing: "(keine Zeilen)",
+    take: "Den Text mit dieser Auswahl übernehmen",
+  },
   download: "Herunterladen",
   difference: "Unterschiede der neuen Texte",
   checkFiles: "Prüfen und Unterschiede zeigen",
