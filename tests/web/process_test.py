@@ -183,6 +183,55 @@ class RecipeOnThePage(PageCase):
         eventually("the old recipe runs", lambda: self.appliance.says(lambda: self.appliance.checksum() == checksum))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
 
+    def configured(self):
+        """The site file, and its recipes by number."""
+        site = (self.appliance.folder / "demo.toml").read_text(encoding="utf-8")
+        return site, {one["number"]: one["file"] for one in tomllib.loads(site)["recipe"]}
+
+    def type_copy(self, name, number):
+        for field, value in (("copy", name), ("number", str(number))):
+            shown = self.find(f"#recipe-copy [name={field}]")
+            shown.clear()
+            shown.send_keys(value)
+
+    def test_a_copy_becomes_a_recipe_of_its_own(self):
+        site, recipes = self.configured()
+        self.assertEqual(list(recipes), [1])
+        for name, number, why in (("../evil", 2, "must be 1 to 40 letters"), ("demo-rig", 2, "exists already"),
+                                  ("thin", 1, "recipe 1 exists already")):
+            self.type_copy(name, number)
+            self.press("Check and show the difference")
+            eventually(why, lambda why=why: why in self.said())
+        Select(self.find("[data-region=surroundings] [name=signal]")).select_by_value("spatter_rate")
+        self.find("[data-region=surroundings]").find_element(By.XPATH, ".//button[text()='+ limit']").click()
+        self.find("[data-region=surroundings] .limits [name=high_alarm]").send_keys("900", Keys.TAB)
+        self.type_copy("thin", 2)
+        checksum = self.appliance.checksum()
+        self.press("Try out")
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != checksum and self.appliance.configuration()["trial"]))
+        self.assertIn({"number": 2, "name": "thin"}, self.recipe()["recipes"])
+        self.assertFalse((self.appliance.folder / "thin.toml").exists())
+        eventually("the page can keep it", lambda: "is reverted in" in self.browser.text("#recipe [role=timer]"))
+        self.browser.keep_picture("process-copy")
+        self.press("Keep it")
+        eventually("the files are written", lambda: self.configured()[1] == {**recipes, 2: "thin.toml"})
+        self.assertTrue(self.configured()[0].startswith(site[:site.index("[[recipe]]")]))
+        copy = (self.appliance.folder / "thin.toml").read_bytes()
+        self.assertIn(b'name = "thin"\r\n', copy)
+        self.assertIn(b"high_alarm = 900", copy)
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
+        self.browser.execute_script("location.hash = '#/system'")
+        self.find("#control > summary").click()
+        eventually("it is in the list", lambda: "2 thin" in self.browser.text("#control [name=recipe]"))
+        Select(self.find("#control [name=recipe]")).select_by_value("2")
+        self.press("Measure by it", "control")
+        eventually("it is measured by", lambda: self.appliance.status()["system"]["recipe"] == 2)
+        self.assertEqual(self.recipe()["name"], "thin")
+        Select(self.find("#control [name=recipe]")).select_by_value("1")
+        self.press("Measure by it", "control")
+        eventually("the old one again", lambda: self.appliance.status()["system"]["recipe"] == 1)
+
     def test_limits_and_regions_are_kept_in_the_recipe(self):
         checksum, pool = self.appliance.checksum(), self.region("pool")
         limit = self.drag_a_limit()

@@ -139,8 +139,34 @@ Result<ConfigurationFiles::Edit> InstalledConfiguration::with_changed_recipe(
   const auto present = files.read(file, "a TOML file");
   if (!present) return tl::unexpected(present.error());
   const std::string name = name_of(file);
-  return files::changed_recipe(*present, name, change).map([&](const std::string& text) {
+  auto edit = files::changed_recipe(*present, name, change).map([&](const std::string& text) {
     return Edit{{{name, text}}, {{name, checksum_digits(*present)}}};
+  });
+  if (!change.copy || !edit) return edit;
+  return with_copied_recipe(file, *change.copy, std::move(*edit));
+}
+
+/// `changed`: the edit as if the recipe itself was changed.
+Result<ConfigurationFiles::Edit> InstalledConfiguration::with_copied_recipe(const fs::path& recipe,
+                                                                            const RecipeCopy& copy,
+                                                                            Edit changed) const {
+  if (auto right = files::check_recipe_name(copy.name); !right) {
+    return tl::unexpected(right.error());
+  }
+  const std::string name = name_of(recipe.parent_path() / (copy.name + ".toml"));
+  std::error_code error;
+  if (fs::exists(file_.parent_path() / name, error) || error) {
+    return fail(name + ": exists already; choose another name");
+  }
+  files::TextFiles files;
+  const auto site = files.read(file_, "the configuration file");
+  if (!site) return tl::unexpected(site.error());
+  const std::string site_name = name_of(file_);
+  return files::with_recipe(*site, site_name, copy.number, name).map([&](std::string text) {
+    Edit edit{{{name, std::move(changed.texts.begin()->second)}, {site_name, std::move(text)}},
+              std::move(changed.based_on)};
+    edit.based_on[site_name] = checksum_digits(*site);
+    return edit;
   });
 }
 

@@ -35,6 +35,8 @@ class InstalledConfiguration final : public ConfigurationFiles {
   /// Files that run, and those that the configuration on the disk names.
   std::set<std::filesystem::path> named_files() const;
   std::vector<std::filesystem::path> state_folders() const;
+  Result<Edit> with_copied_recipe(const std::filesystem::path& recipe, const RecipeCopy& copy,
+                                  Edit changed) const;
   Result<files::FileTexts> placed(const Texts& texts) const;
   Result<files::FileChecksums> checksums_in(const Basis& based_on) const;
   Result<std::filesystem::path> trial_folder() const;

@@ -2,6 +2,7 @@
 #include "app/files/recipe/recipe_edit.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <string_view>
@@ -39,6 +40,9 @@ class RecipeEdit {
   Result<> change(const LimitChange& change);
   Result<> add_alarms(const std::vector<LimitChange>& limits);
   Result<> change(const RegionChange& change);
+  void rename(const std::string& name) {
+    edit_.replace(*edit_.root().get("name"), toml_string(name));
+  }
 
   Result<std::string> finish() const { return edit_.finish(); }
 
@@ -187,6 +191,7 @@ Result<> apply(RecipeEdit& edit, const RecipeChange& change) {
   for (const RegionChange& region : change.regions) {
     if (auto done = edit.change(region); !done) return done;
   }
+  if (change.copy) edit.rename(change.copy->name);
   return {};
 }
 
@@ -231,6 +236,35 @@ Result<std::string> changed_recipe(const std::string& text, const std::string& n
       .and_then([&](const std::string& changed) {
         return read(changed).map([&](const pipeline::Recipe&) { return changed; });
       });
+}
+
+Result<> check_recipe_name(const std::string& name) {
+  constexpr std::size_t kMost = 40;
+  const bool is_plain = std::ranges::all_of(
+      name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
+  if (is_plain && !name.empty() && name.size() <= kMost) return {};
+  return fail("the name of a new recipe is \"" + one_line(name.substr(0, kMost)) +
+              "\"; it must be 1 to " + std::to_string(kMost) +
+              " letters, digits, - and _, because its file has it, too");
+}
+
+Result<std::string> with_recipe(const std::string& text, const std::string& site,
+                                std::uint16_t number, const std::string& file) {
+  auto edit = TomlEdit::make(text, site);
+  if (!edit) return tl::unexpected(edit.error());
+  const toml::array* const recipes = edit->root()["recipe"].as_array();
+  if (recipes == nullptr || recipes->empty()) return fail(site + ": names no recipe to copy");
+  for (const toml::node& recipe : *recipes) {
+    if (recipe.is_table() && recipe.as_table()->get_as<std::int64_t>("number") != nullptr &&
+        **recipe.as_table()->get_as<std::int64_t>("number") == number) {
+      return fail(site + ": recipe " + std::to_string(number) +
+                  " exists already; choose another number");
+    }
+  }
+  edit->add_element(
+      *recipes, "recipe",
+      toml_line("number", std::to_string(number)) + toml_line("file", toml_string(file)));
+  return edit->finish();
 }
 
 }  // namespace orbwatch::app::files

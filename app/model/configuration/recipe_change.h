@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +35,17 @@ struct RegionChange {
   bool is_removed = false;                          ///< then only the name is set
 };
 
+/// A new recipe, in a file of its own beside the one that it is a copy of.
+struct RecipeCopy {
+  std::uint16_t number = 0;  ///< by which select_recipe selects it
+  std::string name;          ///< also its file's, without the ending
+};
+
 /// Manual changes of a recipe, one for each limit and region.
 struct RecipeChange {
   std::vector<LimitChange> limits{};
   std::vector<RegionChange> regions{};
+  std::optional<RecipeCopy> copy{};  ///< the changes are made in a copy; nullopt: in the recipe
 };
 
 }  // namespace orbwatch::app

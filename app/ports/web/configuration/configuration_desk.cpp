@@ -99,18 +99,25 @@ Answered<ConfigurationAnswer> ConfigurationDesk::read() const {
   return answer;
 }
 
-/// Returns the edit if the caller has the right to it, and it would not overwrite another change.
+/// Returns the texts that a caller sent if the caller has the right to them.
 Answered<ConfigurationFiles::Edit> ConfigurationDesk::permitted(const ChangeRequest& change,
                                                                 const Edit& edit) const {
-  const bool is_administrator = change.caller.role >= Role::Administrator;
-  if (is_administrator && edit.based_on.empty()) return edit;
+  if (change.caller.role >= Role::Administrator) return edit;
   const auto state = files_->read();
   if (!state) return refuse(state.error());
-  if (!is_administrator && is_other_site(*state, edit.texts)) {
+  if (is_other_site(*state, edit.texts)) {
     return refuse(403, "another " + state->site +
                            " needs the role administrator: it determines where users are kept and "
                            "which camera modules run");
   }
+  return edit;
+}
+
+/// Returns the edit if it would not overwrite another change.
+Answered<ConfigurationFiles::Edit> ConfigurationDesk::based(const Edit& edit) const {
+  if (edit.based_on.empty()) return edit;
+  const auto state = files_->read();
+  if (!state) return refuse(state.error());
   const auto checked = check_basis(*state, edit);
   if (!checked) return refuse(checked.error());
   return edit;
@@ -153,13 +160,13 @@ Result<> ConfigurationDesk::check_basis(const ConfigurationFiles::State& state,
 Answered<ConfigurationFiles::Change> ConfigurationDesk::check_edit(
     ChangeRequest& change, const Answered<Edit>& edit) const {
   change.changes_nothing = true;
-  return edit.and_then([&](const Edit& sent) { return permitted(change, sent); })
+  return edit.and_then([&](const Edit& sent) { return based(sent); })
       .and_then([&](const Edit& sent) { return files_->check(sent.texts).map_error(conflict); });
 }
 
 Answered<TrialAnswer> ConfigurationDesk::try_edit(ChangeRequest& change, const Answered<Edit>& edit,
                                                   int seconds) {
-  return edit.and_then([&](const Edit& sent) { return permitted(change, sent); })
+  return edit.and_then([&](const Edit& sent) { return based(sent); })
       .and_then([&](Edit sent) {
         sent.owner = change.caller.name;
         return files_->try_out(sent, seconds).map_error(conflict);
@@ -177,11 +184,11 @@ Answered<ConfigurationFiles::Edit> ConfigurationDesk::edit_of(const RecipeBody& 
 }
 
 Answered<ConfigurationFiles::Change> ConfigurationDesk::check(Change<ConfigurationBody>& change) {
-  return check_edit(change, change.body.edit);
+  return check_edit(change, permitted(change, change.body.edit));
 }
 
 Answered<TrialAnswer> ConfigurationDesk::try_out(Change<ConfigurationBody>& change) {
-  return try_edit(change, change.body.edit, change.body.seconds);
+  return try_edit(change, permitted(change, change.body.edit), change.body.seconds);
 }
 
 Answered<ConfigurationFiles::Change> ConfigurationDesk::check_recipe(Change<RecipeBody>& change) {

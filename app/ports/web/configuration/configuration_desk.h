@@ -15,8 +15,9 @@
 namespace orbwatch::app::web {
 
 /// Handlers that read, check, try out and confirm the files of the configuration, and single limits
-/// and regions of a recipe within its file. The configuration file itself determines where users
-/// are kept and which camera modules run: changing it needs an administrator. Thread-safe; all wait
+/// and regions of a recipe within its file or in a copy of it. The configuration file itself
+/// determines where users are kept and which camera modules run: another text of it needs an
+/// administrator. Thread-safe; all wait
 /// for the disk, except show().
 class ConfigurationDesk {
  public:
@@ -42,6 +43,7 @@ class ConfigurationDesk {
                                                   const Answered<Edit>& edit) const;
   Answered<TrialAnswer> try_edit(ChangeRequest& change, const Answered<Edit>& edit, int seconds);
   Answered<Edit> permitted(const ChangeRequest& change, const Edit& edit) const;
+  Answered<Edit> based(const Edit& edit) const;
   Result<> check_basis(const ConfigurationFiles::State& state, const Edit& edit) const;
   std::string changer_of(const std::string& name, const ConfigurationFiles::Version& now) const;
 

@@ -41,6 +41,13 @@ void visit(Visitor& v, RegionChange& region) {
   if (view && threshold) region.added = {std::move(*view), *threshold};
 }
 
+template <class Visitor>
+void visit(Visitor& v, RecipeCopy& copy) {
+  v.required("number", copy.number, Range::between(1, 65535),
+             "Number of the new recipe, which select_recipe passes");
+  v.required("name", copy.name, "Name of the new recipe and of its file: letters, digits, - and _");
+}
+
 }  // namespace orbwatch::app
 
 namespace orbwatch::app::web {
@@ -56,6 +63,9 @@ void visit(Visitor& v, RecipeBody& body) {
   v.required("recipe", body.recipe, "Number of the recipe");
   v.optional("limits", body.change.limits, "Limits of alarms");
   v.optional("regions", body.change.regions, "New corners, new regions, and removed ones");
+  v.optional("copy", body.change.copy,
+             "The changes are made in a copy, a new recipe in a file of its own, which the "
+             "configuration file then names, too; the recipe stays as it is");
   visit_seconds(v, body.seconds);
 }
 

@@ -41,7 +41,7 @@ SentRegion sent_region(const MeasuredRecipe& recipe, const MeasuredRecipe::Regio
 }  // namespace
 
 RecipeAnswer recipe_answer(const MeasuredRecipe& recipe) {
-  RecipeAnswer answer{recipe.number, recipe.name, {}, {}, {}};
+  RecipeAnswer answer{recipe.number, recipe.name, {}, {}, {}, {}};
   for (const auto& [name, view] : recipe.views) {
     answer.views.push_back({name, view->width(), view->height()});
   }

@@ -76,12 +76,23 @@ void visit(Visitor& v, SentAlarm& alarm) {
              "Distance from a limit at which the alarm ends, in the unit");
 }
 
+struct SentRecipeName {
+  std::uint16_t number = 0;
+  std::string name;
+};
+template <class Visitor>
+void visit(Visitor& v, SentRecipeName& recipe) {
+  v.required("number", recipe.number, "Number that select_recipe passes");
+  v.required("name", recipe.name, "Name of the recipe");
+}
+
 struct RecipeAnswer {
   std::uint16_t number = 0;
   std::string name;
   std::vector<SentRecipeView> views;
   std::vector<SentRegion> regions;
   std::vector<SentAlarm> alarms;
+  std::vector<SentRecipeName> recipes;
 };
 template <class Visitor>
 void visit(Visitor& v, RecipeAnswer& answer) {
@@ -90,7 +101,9 @@ void visit(Visitor& v, RecipeAnswer& answer) {
   v.required("views", answer.views, "Views of the recipe");
   v.required("regions", answer.regions, "Regions that are measured");
   v.required("alarms", answer.alarms, "Limits of alarms, in the order of the status");
+  v.required("recipes", answer.recipes, "All recipes, of which one is selected");
 }
+/// Without the list of all recipes.
 RecipeAnswer recipe_answer(const MeasuredRecipe& recipe);
 
 struct RecipeQuery {

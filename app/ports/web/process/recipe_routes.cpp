@@ -61,7 +61,11 @@ Answered<const MeasuredRecipe*> RecipeRoutes::recipe_of(const RecipeQuery& query
 }
 
 Answered<RecipeAnswer> RecipeRoutes::recipe(const RecipeQuery& query) const {
-  return recipe_of(query).map([](const MeasuredRecipe* recipe) { return recipe_answer(*recipe); });
+  return recipe_of(query).map([this](const MeasuredRecipe* recipe) {
+    RecipeAnswer answer = recipe_answer(*recipe);
+    for (const MeasuredRecipe& one : recipes_) answer.recipes.push_back({one.number, one.name});
+    return answer;
+  });
 }
 
 Answered<PolygonAnswer> RecipeRoutes::polygon(const PolygonQuery& query) const {

@@ -95,6 +95,38 @@ TEST(RecipeEdit, AddsAndRemovesLimits) {
                                     recipe_with("2_400\n", "2_400\nhysteresis = 20\n"))));
 }
 
+TEST(RecipeEdit, ACopyHasItsChangesAndAnotherName) {
+  const auto text = changed({{kHigher}, {}, RecipeCopy{2, "thin_wall"}});
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_EQ(*text, recipe_with("high_warning = 26", "high_warning = 27.5",
+                               recipe_with("name = \"cladding\"", "name = \"thin_wall\"")));
+}
+
+TEST(RecipeEdit, TheNameOfACopyIsThatOfAFileBesideTheOthers) {
+  for (const char* name : {"a", "thin_wall-2", "0123456789012345678901234567890123456789"}) {
+    EXPECT_TRUE(check_recipe_name(name)) << name;
+  }
+  for (const char* name : {"", ".", "..", "../thin", "a/b", "a b", "a.toml", "gr\xC3\xB6\xC3\x9F",
+                           "a\nb", "a\"", "01234567890123456789012345678901234567890"}) {
+    const auto refused = check_recipe_name(name);
+    ASSERT_FALSE(refused) << name;
+    EXPECT_THAT(refused.error().message, HasSubstr("1 to 40 letters, digits, - and _"));
+  }
+}
+
+TEST(RecipeEdit, ANewRecipeIsNamedBehindTheOthers) {
+  const std::string before =
+      "rig = \"rig.toml\"  # mine\n[[recipe]]\nnumber = 1\nfile = \"a.toml\"\n";
+  const std::string after = "\n[web]\nenabled = true\n";
+  const auto site = with_recipe(before + after, "site.toml", 7, "thin.toml");
+  ASSERT_TRUE(site) << site.error().message;
+  EXPECT_EQ(*site, before + "\n[[recipe]]\nnumber = 7\nfile = \"thin.toml\"\n" + after);
+  const auto taken = with_recipe(*site, "site.toml", 7, "other.toml");
+  ASSERT_FALSE(taken);
+  EXPECT_THAT(taken.error().message, HasSubstr("site.toml: recipe 7 exists already"));
+  EXPECT_FALSE(with_recipe(after, "site.toml", 1, "thin.toml"));
+}
+
 TEST(RecipeEdit, KeepsTheEndsOfLines) {
   std::string with_returns;
   for (const char c : kRecipe) with_returns += c == '\n' ? "\r\n" : std::string(1, c);

@@ -77,7 +77,7 @@ const kTabs = [
   { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
   { name: "process",
     make: (section) => new Process(section, faults, recipe, figures, isAtLeast("integrator"), choose) },
-  { name: "system", make: (section) => new System(section, views, figures, session) },
+  { name: "system", make: (section) => new System(section, views, recipe, figures, session) },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
 // The only one at the address /operator.

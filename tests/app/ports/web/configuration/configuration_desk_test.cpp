@@ -118,6 +118,19 @@ TEST_F(Configuration, OfTheSiteIsTheAdministrators) {
   EXPECT_EQ(ask("try", other, Role::Administrator).status, 200);
 }
 
+/// The appliance itself makes the text of the site, which only names one more recipe.
+TEST_F(Configuration, OfACopiedRecipeIsAnIntegratorsAlthoughTheSiteNamesIt) {
+  start();
+  const json body{{"recipe", 1}, {"copy", {{"number", 2}, {"name", "thin"}}}};
+  const auto recipe = [&](const json& sent) {
+    return post("/api/v1/try_recipe", sent.dump(), by_token(Role::Integrator) + kJsonHeader);
+  };
+  EXPECT_EQ(recipe({{"recipe", 1}, {"copy", {{"name", "thin"}}}}).status, 400) << "no number";
+  ASSERT_EQ(recipe(body).status, 200);
+  EXPECT_EQ(shown()["trial"]["files"],
+            json({{"thin", "a = 1\n"}, {"site.toml", "# mine\nthin\n"}}));
+}
+
 /// Otherwise a change by a second editor, or at the board, would be lost.
 TEST_F(Configuration, MadeOfAnOlderFileIsRefusedWithWhoChangedItAndWhen) {
   start();

@@ -24,7 +24,7 @@ std::string refusal_of(const std::string& list, const std::string& one) {
 
 TEST(RecipeRecords, HaveLimitsAndRegions) {
   const auto body = parse_record<RecipeBody>(
-      R"({"recipe": 7, "seconds": 30,
+      R"({"recipe": 7, "seconds": 30, "copy": {"number": 9, "name": "thin"},
           "limits": [{"alarm": 1, "region": "pool", "signal": "plume_area", "limit": "low_alarm",
                       "value": -1.5},
                      {"alarm": 2, "region": "", "signal": "", "limit": "", "value": null}],
@@ -35,7 +35,9 @@ TEST(RecipeRecords, HaveLimitsAndRegions) {
   ASSERT_TRUE(body) << body.error().message;
   EXPECT_EQ(body->recipe, 7);
   EXPECT_EQ(body->seconds, 30);
-  const auto& [limits, regions] = body->change;
+  const auto& [limits, regions, copy] = body->change;
+  EXPECT_EQ(copy->number, 9);
+  EXPECT_EQ(copy->name, "thin");
   ASSERT_EQ(limits.size(), 2U);
   EXPECT_EQ(limits[0].alarm, 1U);
   EXPECT_EQ(limits[0].signal, "plume_area");

@@ -35,6 +35,11 @@ class WrittenFiles final : public ConfigurationFiles {
     for (const RegionChange& region : change.regions) {
       text += region.name + " " + std::to_string(region.points.size()) + "\n";
     }
+    if (change.copy) {
+      const std::string& site = state.files.at("site.toml");
+      return Edit{{{change.copy->name, text}, {"site.toml", site + change.copy->name + "\n"}},
+                  {{"site.toml", site}}};
+    }
     return Edit{{{"rig.toml", text}}, {{"rig.toml", state.files.at("rig.toml")}}};
   }
   Result<Change> check(const Texts& texts) const override {

@@ -70,6 +70,7 @@ class ServedRecipe : public Served {
 TEST_F(ServedRecipe, HasLimitsAndRegionsInItsViews) {
   const json all = shown();
   EXPECT_EQ(all["name"], "cladding");
+  EXPECT_EQ(all["recipes"], json({{{"number", recipe.number}, {"name", "cladding"}}}));
   EXPECT_EQ(all["views"], json::parse(R"([{"name": "process", "width": 65, "height": 49}])"));
   const json& alarm = all["alarms"][0];
   EXPECT_EQ(alarm["alarm"], 1);

@@ -6,6 +6,7 @@ import { Trial } from "../system/trial.js";
 import { texts } from "../texts.js";
 import { AlarmHistory } from "./alarm_history.js";
 import { Glance } from "./glance.js";
+import { RecipeCopy } from "./recipe_copy.js";
 import { RegionSignals } from "./region_signals.js";
 
 export class Process {
@@ -32,7 +33,7 @@ export class Process {
     addEventListener("hashchange", () => trial.refresh());
     trial.refresh();
     return element("section", { id: "recipe" }, element("h3", {}, texts.process.changes), trial.head,
-      trial.foot, forget);
+      new RecipeCopy(this.recipe).root, trial.foot, forget);
   }
 
   get isShown() {

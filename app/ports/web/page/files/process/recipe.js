@@ -3,7 +3,7 @@
 import { texts } from "../texts.js";
 
 const kNoLimits = { low_alarm: null, low_warning: null, high_warning: null, high_alarm: null, hysteresis: null };
-const kNothing = { number: 0, views: [], regions: [], alarms: [] };
+const kNothing = { number: 0, views: [], regions: [], alarms: [], recipes: [] };
 
 async function answered(path) {
   const answer = await fetch(path);
@@ -19,6 +19,7 @@ export class Recipe extends EventTarget {
   #added = [];          // unsent alarms, with the number 0
   #regions = new Map(); // regions by name
   #removed = new Set(); // names of removed regions
+  #copy = null;         // {number, name} of the new recipe that gets the changes; null: the recipe itself
   stated = kNothing;
 
   // Loads it again if another one runs.
@@ -103,14 +104,23 @@ export class Recipe extends EventTarget {
       alarms: this.stated.alarms.filter(({ region }) => region === name).map(({ alarm }) => alarm) }));
   }
 
+  get copy() {
+    return this.#copy;
+  }
+  set copy(copy) {
+    this.#copy = copy;
+    this.#changed();
+  }
+
   // The body of check_recipe and try_recipe; null: no changes.
   get body() {
-    if (this.#limits.size + this.#regions.size + this.#removed.size === 0) return null;
+    if (this.#limits.size + this.#regions.size + this.#removed.size === 0 && !this.#copy) return null;
     const regions = [...this.#regions.values()].map(({ name, view, kind, corners, threshold }) => ({
       name, [kind]: corners.map(({ at }) => at),
       ...(threshold === undefined ? {} : { view, hot_spot_threshold: threshold }) }));
     regions.push(...[...this.#removed].map((name) => ({ name, removed: true })));
-    return { recipe: this.stated.number, limits: [...this.#limits.values()], regions };
+    return { recipe: this.stated.number, limits: [...this.#limits.values()], regions,
+      ...(this.#copy && { copy: this.#copy }) };
   }
 
   forget() {
@@ -118,6 +128,7 @@ export class Recipe extends EventTarget {
     this.#added = [];
     this.#regions.clear();
     this.#removed.clear();
+    this.#copy = null;
     this.#changed();
   }
 }

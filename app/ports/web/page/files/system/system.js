@@ -13,7 +13,7 @@ import { Stages } from "./stages.js";
 
 export class System {
   // `session`: of the user of the page, as /api/v1/session has it.
-  constructor(root, views, figures, session) {
+  constructor(root, views, recipe, figures, session) {
     this.root = root;
     const may = (role) => session.roles.includes(role), isShown = () => !root.hidden;
     this.configuration = may("integrator") ? new Configuration() : null;
@@ -22,7 +22,7 @@ export class System {
       new Stages(),
       new Interfaces(figures, may("integrator")),
       may("operator") && new Log(isShown),
-      may("operator") && new Control(views, may("integrator")),
+      may("operator") && new Control(views, recipe, may("integrator")),
       this.configuration,
       session.has_users && may("administrator") && new People(session),
       session.has_users && new OwnPassword(session),

@@ -181,7 +181,7 @@ export const texts = {
     active: "Aktiv",
     inactive: "Nicht aktiv",
     recipes: "Rezept",
-    recipe: "Nummer",
+    recipe: "Nummer und Name",
     select_recipe: "Damit messen",
     views: "Ansicht",
     snapshot: "Ein Bild in den Ordner für Aufnahmen schreiben",
@@ -391,6 +391,11 @@ export const texts = {
     noSurface: "dort zeigt die Ansicht keine Fläche der Szene",
     changes: "Änderungen des Rezepts",
     forget: "Änderungen verwerfen",
+    copyAs: "Das Rezept kopieren als",
+    copyNumber: "mit der Nummer",
+    copyHelp: "Die Änderungen von oben gehen in ein neues Rezept, in einer eigenen Datei dieses " +
+      "Namens; das Rezept bleibt, wie es ist. Beides wird ausprobiert, behalten und danach über die Nummer " +
+      "gewählt.",
   },
   chartEmpty: (name) => `${name}: in den letzten zehn Minuten nicht gemessen`,
 };

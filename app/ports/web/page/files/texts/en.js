@@ -175,7 +175,7 @@ export const texts = {
     active: "Active",
     inactive: "Not active",
     recipes: "Recipe",
-    recipe: "Number",
+    recipe: "Number and name",
     select_recipe: "Measure by it",
     views: "View",
     snapshot: "Write a picture into the snapshot folder",
@@ -380,6 +380,10 @@ export const texts = {
     noSurface: "the view shows no surface of the scene there",
     changes: "Changes of the recipe",
     forget: "Discard the changes",
+    copyAs: "Copy the recipe as",
+    copyNumber: "with the number",
+    copyHelp: "The changes made above go into a new recipe, in a file of its own with this name; the " +
+      "recipe stays as it is. Both are tried out, kept and then selected by number.",
   },
   chartEmpty: (name) => `${name}: not measured in the last ten minutes`,
 };

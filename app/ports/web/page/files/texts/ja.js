@@ -173,7 +173,7 @@ export const texts = {
     active: "稼働中",
     inactive: "停止中",
     recipes: "レシピ",
-    recipe: "番号",
+    recipe: "番号と名前",
     select_recipe: "これで計測",
     views: "ビュー",
     snapshot: "スナップショットのフォルダーに画像を保存",
@@ -373,6 +373,9 @@ export const texts = {
     noSurface: "ビューのその位置には機械の面がありません",
     changes: "レシピの変更",
     forget: "変更を破棄",
+    copyAs: "レシピを別名でコピー",
+    copyNumber: "番号",
+    copyHelp: "上の変更は、この名前の独立したファイルの新しいレシピに入り、元のレシピはそのまま残ります。試行して確定すると、番号で選択できます。",
   },
   chartEmpty: (name) => `${name}: 直近 10 分は計測されていません`,
 };
