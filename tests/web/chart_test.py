@@ -54,6 +54,22 @@ class Charts(PageCase):
                            microsecond=0)
         return (now - then).total_seconds() % 86400
 
+    def widths(self):
+        """Lowest width of the pool in each step, oldest first; None where it was not measured."""
+        return self.history("hot_spot_width")["low"]
+
+    def test_a_restart_is_a_gap_in_the_history(self):
+        eventually("some steps", lambda: sum(width is not None for width in self.widths()) > 8)
+        before = self.widths()
+        self.appliance.stop()
+        self.appliance.start()
+        after = eventually("it is measured again", lambda: (
+            widths := self.widths()) and widths[-1] is not None and widths)
+        self.assertEqual(after[:len(before)], before)
+        self.assertIn(None, after[len(before):])
+        file = self.appliance.folder / "state/figure-history"
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+
     def test_ticks_are_round_local_times_and_equidistant_round_values(self):
         labels = eventually("labels of the time axis", lambda: self.labels(":not(.first)"))
         times = [text for text, _, _ in labels if text != "now"]

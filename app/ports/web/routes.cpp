@@ -60,10 +60,10 @@ std::vector<Route> status_routes(const RouteOwners& of) {
           "/api/v1/history", Viewer, of.history,
           "Returns the last ten minutes of one figure of a region or of a camera's supervision: "
           "lowest and highest value of each step, oldest first, null where it was not measured"),
-      get<&HistoryRoutes::alarms>(
+      get<&HistoryRoutes::alarms, AlarmsAnswer>(
           "/api/v1/history/alarms", Viewer, of.history,
-          "Returns the events of alarms since the start, oldest first: time, value, limit, and who "
-          "acknowledged"),
+          "Returns the newest events of alarms, oldest first, also those before a restart: time, "
+          "value, limit, and who acknowledged"),
       get<&LogRoutes::lines>("/api/v1/log", Operator, of.log,
                              "Returns the newest lines of the log since the start, oldest first"),
   };

@@ -40,7 +40,7 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       look_around_(context.names, context.views, balls_.all(), context.background),
       alignment_(context.names.cameras, context.alignment),
       recipe_(context.recipes, {context.ball, context.scene}, [this] { return status_.recipe(); }),
-      history_(context.names, context.recipes),
+      history_(context.names, context.recipes, context.state_folder),
       log_(context.program.log),
       desk_(access_, audit_, access_changes_, settings_.session_longest),
       configuration_(context.program.files, audit_, file_changes_),
@@ -95,13 +95,14 @@ void WebSink::watch() {
     pixels_.release_unwanted(hal::Clock::now());
     balls_.follow();
     history_.advance(hal::Clock::now());
+    history_.keep(hal::Clock::now());
     status_.publish();
   }
 }
 
 /// Stops work in progress first, for example a restart, so that its answer is still sent.
 void WebSink::stop() {
-  is_running_ = false;
+  const bool was_running = is_running_.exchange(false);
   thread_.stop();
   commands_.runner().stop();
   file_changes_.stop();
@@ -110,6 +111,7 @@ void WebSink::stop() {
   look_around_.stop();
   access_.stop();
   audit_.write_all();
+  if (was_running) history_.keep_all();
   streams_.stop();
   pixels_.stop();
 }

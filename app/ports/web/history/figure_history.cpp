@@ -26,6 +26,14 @@ std::optional<FigurePlace> find_field(std::string_view name) {
   return found;
 }
 
+template <class Part>
+std::vector<std::string_view> field_names() {
+  std::vector<std::string_view> names;
+  for_each_field(std::type_identity<Part>{},
+                 [&](const FieldInfo& field) { names.push_back(field.name); });
+  return names;
+}
+
 constexpr std::string_view kRegionKind = "region", kCameraKind = "camera";
 
 std::optional<FigurePlace> find_figure(std::string_view kind, std::string_view name) {
@@ -54,11 +62,41 @@ void FigureHistory::advance(hal::TimePoint now) {
   }
   const std::lock_guard lock(reading_);
   follow(seen);
-  const auto over = static_cast<std::size_t>((now - end_) / kStep);
   end_step(seen);
+  end_ += kStep;
+  end_gap(now);
+}
+
+/// Ends all steps that are over by `now`, without measurements.
+void FigureHistory::end_gap(hal::TimePoint now) {
+  const auto over = static_cast<std::size_t>((now - end_) / kStep);
   const StatusExtremes nothing;
-  for (std::size_t gap = 1; gap < std::min(over, kSteps); ++gap) end_step(nothing);
+  for (std::size_t gap = 0; gap < std::min(over, kSteps); ++gap) end_step(nothing);
   end_ += kStep * over;
+}
+
+void FigureHistory::resume(const std::vector<Kept>& kept, hal::TimePoint end, hal::TimePoint now) {
+  const std::lock_guard lock(reading_);
+  end_ = end;
+  for (const auto& [component, figures] : kept) {
+    const bool is_region = component.kind == kRegionKind;
+    Track track{{is_region ? kRegionKind : kCameraKind, component.name},
+                std::vector<Extremes>(figure_names(component.kind).size() * kSteps)};
+    for (const auto& [name, steps] : figures) {
+      count_ = std::max(count_, steps.size());
+      const auto place = find_figure(component.kind, name);
+      if (!place) continue;
+      std::ranges::copy(steps,
+                        track.steps.begin() + static_cast<std::ptrdiff_t>(place->index * kSteps));
+    }
+    tracks_.push_back(std::move(track));
+  }
+  next_ = count_ % kSteps;
+  end_gap(now);
+}
+
+std::vector<std::string_view> FigureHistory::figure_names(std::string_view kind) {
+  return kind == kRegionKind ? field_names<RegionStatus>() : field_names<CameraWatchStatus>();
 }
 
 /// Adapts the tracks to the regions and cameras seen; keeps them if there was no status.

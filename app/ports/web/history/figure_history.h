@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,6 +49,19 @@ class FigureHistory {
   /// The components with a history.
   std::vector<Component> components() const;
 
+  /// Names of the figures of this kind of component, in the order of the status.
+  static std::vector<std::string_view> figure_names(std::string_view kind);
+
+  /// Series of a process before, which ended together; unknown figures are left out.
+  struct Kept {
+    Component component;
+    std::map<std::string, std::vector<Extremes>>
+        figures;  ///< as many steps of each, at most kSteps
+  };
+  /// Continues them: the time from `end` to `now` is a gap. At most as many regions and cameras as
+  /// there can be; before the first advance().
+  void resume(const std::vector<Kept>& kept, hal::TimePoint end, hal::TimePoint now);
+
  private:
   struct Track {
     Component component;
@@ -58,6 +73,7 @@ class FigureHistory {
   void follow(const StatusExtremes& seen);
   void follow(std::vector<Track>& next, Component component, std::size_t figures);
   void end_step(const StatusExtremes& seen);
+  void end_gap(hal::TimePoint now);
 
   const StatusNames names_;
   mutable hal::PriorityMutex adding_;  ///< guards the open step

@@ -65,7 +65,7 @@ struct SentAlarmEvent {
 template <class Visitor>
 void visit(Visitor& v, SentAlarmEvent& sent) {
   AlarmNotice& notice = sent.notice;
-  v.required("number", notice.number, "Counts events since the start, from 1");
+  v.required("number", notice.number, "Counts events, from 1, also over restarts");
   v.required("time", sent.time, "UTC, ISO 8601");
   v.required("name", sent.name, "Name of the alarm");
   v.required("alarm", sent.alarm, "Argument alarm of acknowledge_alarm");

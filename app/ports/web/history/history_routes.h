@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "app/model/status/measured_recipe.h"
@@ -8,29 +9,42 @@
 #include "app/ports/web/history/alarm_history.h"
 #include "app/ports/web/history/figure_history.h"
 #include "app/ports/web/history/history_records.h"
+#include "app/ports/web/history/kept_events.h"
 
 namespace orbwatch::app::web {
 
-/// Keeps and serves the history of figures and of alarms. Thread rule: accept on the pipeline's
-/// thread, advance on one thread, everything else on any thread.
+/// Keeps and serves the history of figures and of alarms, also over restarts. Thread rule: accept
+/// on the pipeline's thread, advance and keep on one thread, everything else on any thread.
 class HistoryRoutes {
  public:
-  HistoryRoutes(const StatusNames& names, const std::vector<MeasuredRecipe>& recipes)
-      : names_(names), recipes_(recipes), figures_(names) {}
+  /// `state_folder` empty: nothing is kept.
+  HistoryRoutes(const StatusNames& names, const std::vector<MeasuredRecipe>& recipes,
+                const std::filesystem::path& state_folder);
 
   Answered<FigureAnswer> figure(const FigureQuery& query) const;
-  Answered<AlarmsAnswer> alarms(const AlarmsQuery& query) const;
+  /// AlarmsAnswer.
+  Response alarms(const AlarmsQuery& query) const;
 
   void accept(const Status& status) { figures_.accept(status); }
   void accept(const AlarmNotice& notice) { alarms_.accept(notice); }
   void advance(hal::TimePoint now) { figures_.advance(now); }
+  /// Writes new events of alarms, once in KeptEvents::kPeriod; waits for the disk.
+  void keep(hal::TimePoint now);
+  /// Writes everything, at the end.
+  void keep_all();
   std::uint64_t alarm_events() const { return alarms_.count(); }
 
  private:
+  std::vector<Json> events(std::size_t most) const;
+
   const StatusNames names_;
   const std::vector<MeasuredRecipe> recipes_;
+  const std::filesystem::path figure_file_;  ///< empty: none
   FigureHistory figures_;
   AlarmHistory alarms_;
+  const KeptEvents kept_;
+  std::uint64_t written_ = 0;  ///< events of this process that the file has
+  hal::TimePoint next_write_{};
 };
 
 }  // namespace orbwatch::app::web

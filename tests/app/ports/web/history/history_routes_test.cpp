@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/model/status/json.h"
 #include "tests/app/ports/web/served.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
 namespace {
@@ -36,10 +38,19 @@ class History : public Served {
     sink->accept_event(notice);
     return notice;
   }
+  /// Ends the sink, if one runs, and starts another one that keeps its history in the folder.
+  void restart() {
+    sink.reset();
+    noticed = 0;
+    state_folder = folder.path();
+    start();
+  }
+  void TearDown() override { sink.reset(); }  // while the folder exists
   json alarms(const std::string& query = "") const {
     return json::parse(get(port(), "/api/v1/history/alarms" + query).body)["alarms"];
   }
 
+  const orbwatch::tests::TemporaryFolder folder;
   std::uint64_t noticed = 0;
 };
 
@@ -59,6 +70,52 @@ TEST_F(History, OfAFigureIsFilledWhileTheSinkRuns) {
   EXPECT_EQ(series["step"], 0.5);
   EXPECT_GE(series["age"], 0.0);
   EXPECT_EQ(get(port(), "/api/v1/history?camera=thermal&figure=blur").status, 200);
+}
+
+TEST_F(History, OfAlarmsGoesOnAfterARestart) {
+  restart();
+  happen(signals::AlarmEventKind::Raised, 3.5);
+  happen(signals::AlarmEventKind::Cleared, 1);
+  const json before = alarms();
+  ASSERT_EQ(before.size(), 2U);
+  recipes.clear();  // the events keep the limits and names of their recipe
+  restart();
+  EXPECT_EQ(alarms(), before);
+  happen(signals::AlarmEventKind::Raised, 4.5);
+  const json after = alarms();
+  ASSERT_EQ(after.size(), 3U);
+  EXPECT_EQ(after[2]["number"], 3);
+  EXPECT_EQ(after[2]["value"], 4.5);
+  EXPECT_EQ(alarms("?events=2"), json({after[1], after[2]}));
+  restart();
+  EXPECT_EQ(alarms(), after);
+}
+
+TEST_F(History, OfAlarmsIsBounded) {
+  constexpr std::size_t kOfARun = AlarmHistory::kMost - 100;
+  for (int run = 0; run < 2; ++run) {
+    restart();
+    for (std::size_t n = 0; n < kOfARun; ++n) happen(signals::AlarmEventKind::Raised, 1);
+  }
+  restart();
+  const json all = alarms("?events=" + std::to_string(AlarmHistory::kMost));
+  ASSERT_EQ(all.size(), AlarmHistory::kMost);
+  EXPECT_EQ(all.back()["number"], 2 * kOfARun);
+  EXPECT_LT(std::filesystem::file_size(state_folder / "alarm-history.json"), 1U << 20);
+}
+
+TEST_F(History, OfAlarmsBeginsAnewWithADamagedFile) {
+  const std::filesystem::path file = folder.path() / "alarm-history.json";
+  for (const char* text : {"", "{", "[]", R"({"alarms": [1]})", R"({"alarms": [{"number": 1}]})"}) {
+    sink.reset();
+    std::ofstream(file) << text;
+    std::filesystem::permissions(file, std::filesystem::perms(0600));
+    restart();
+    EXPECT_TRUE(alarms().empty()) << text;
+    happen(signals::AlarmEventKind::Raised, 1);
+    restart();
+    EXPECT_EQ(alarms().size(), 1U) << text;
+  }
 }
 
 TEST_F(History, SaysWhichFiguresThereAre) {
