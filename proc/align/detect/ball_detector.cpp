@@ -17,11 +17,19 @@ constexpr int kSmallestSide = 64;
 /// most kRival makes the best one doubtful.
 constexpr double kElsewhere = 0.5, kRival = 2.6;
 
-/// True when another place looks nearly as much like a ball.
+/// True when `inner` lies within `outer`, up to a twentieth of its radius.
+bool is_within(const optics::Outline& inner, const optics::Outline& outer) {
+  const double apart = std::hypot(inner.centre.u - outer.centre.u, inner.centre.v - outer.centre.v);
+  return apart + optics::mean_radius(inner) < 1.05 * optics::mean_radius(outer);
+}
+
+/// True when another place looks nearly as much like a ball, unless the best limb's ball shows it.
 bool has_rival(const std::vector<FoundLimb>& limbs) {
+  const FoundLimb& best = limbs.front();
   return std::ranges::any_of(limbs, [&](const FoundLimb& other) {
-    return certainty(other.evidence) > certainty(limbs.front().evidence) - kRival &&
-           difference(other.outline, limbs.front().outline) > kElsewhere;
+    return certainty(other.evidence) > certainty(best.evidence) - kRival &&
+           difference(other.outline, best.outline) > kElsewhere &&
+           !is_within(other.outline, best.outline);
   });
 }
 

@@ -49,6 +49,22 @@ TEST(BallDetector, IsNotConfidentOfNoise) {
   EXPECT_FALSE(found->reason.empty());
 }
 
+/// A ball in whose middle another one is seen, as a mirror shows round things of its room.
+TEST(BallDetector, IsConfidentOfABallThatShowsAnother) {
+  const optics::Outline outer{{400.2, 322.7}, 260, 260, 0};
+  cv::Mat picture = painted_ball({800, 640}, outer);
+  const cv::Rect middle(300, 220, 200, 200);
+  const cv::Mat inner = painted_ball(middle.size(), {{99.6, 99.8}, 90, 90, 0});
+  cv::Mat disc(middle.size(), CV_8U, cv::Scalar(0));
+  cv::circle(disc, {100, 100}, 92, cv::Scalar(255), cv::FILLED);
+  inner.copyTo(picture(middle), disc);
+  const auto found = detect_ball(picture_of_mat(picture));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->outline.centre.u, outer.centre.u, 0.01 * outer.rx);
+  EXPECT_NEAR(found->outline.rx, outer.rx, 0.01 * outer.rx);
+  EXPECT_TRUE(found->is_confident()) << found->confidence << ": " << found->reason;
+}
+
 TEST(BallDetector, TakesPicturesOfAnyShape) {
   for (const cv::Size size : {cv::Size(64, 64), cv::Size(65, 1500), cv::Size(1500, 65)}) {
     const cv::Mat grey = painted_ball(size, {{32, 32}, 20, 20, 0});
