@@ -56,7 +56,7 @@ Result<FoundRegistration> register_camera(const optics::Rig& rig,
   if (!turnable) return tl::unexpected(turnable.error());
   if (settings.outline) turnable->outline = settings.outline;
   const align::SoughtCamera sought{pictures.camera.front(), rig, *std::move(turnable),
-                                   settings.outline_sigma};
+                                   settings.outline_sigma, settings.keeps_outline};
   const auto found = align::register_camera(pictures, *ball, sought, settings.method, progress);
   if (!found) return tl::unexpected(found.error());
   const align::Registration& best = found->registration;

@@ -25,6 +25,7 @@ struct RegistrationSettings {
   align::RegistrationMethod method = align::RegistrationMethod::Auto;
   std::optional<optics::Outline> outline{};  ///< in place of the rig's
   double outline_sigma = 0;                  ///< see align::SoughtCamera::outline_sigma
+  bool keeps_outline = false;                ///< see align::SoughtCamera::keeps_outline
 };
 
 /// A camera's registration, and the alignment that it amounts to.

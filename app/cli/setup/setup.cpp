@@ -129,16 +129,26 @@ Result<align::SimultaneousPictures> together(const Setup& setup, std::size_t cam
   return simultaneous(first.pictures, other.pictures, hal::period_of(slower) / 2);
 }
 
+/// Boxes are looked for in a room that the first camera knows.
+bool seeks_box(const Setup& setup) { return setup.walls && setup.cameras.front().pose; }
+
 /// The registration of a camera to the first one.
-Result<optics::Mat3> registration(const Setup& setup, std::size_t camera, Progress& progress) {
+Result<align::Registration> registration(const Setup& setup, std::size_t camera,
+                                         const RegistrationSettings& settings, Progress& progress) {
   const optics::Rig rig = rig_of(setup);
   const auto pictures = together(setup, camera);
   if (!pictures) return tl::unexpected(pictures.error());
   const align::WorkProgress shown([&](align::WorkStep step, double /*share*/) {
     progress.begin(setup.cameras[camera].name + ": " + std::string(operator_text(step)));
   });
-  return register_camera(rig, rig.cameras.front(), rig.cameras[camera], *pictures, {}, shown)
-      .map([](const FoundRegistration& found) { return found.found.registration.rotation; });
+  return register_camera(rig, rig.cameras.front(), rig.cameras[camera], *pictures, settings, shown)
+      .map([](const FoundRegistration& found) { return found.found.registration; });
+}
+
+/// The outline may be refined along with the rotation: both are needed.
+void accept(SetupCamera& camera, const align::Registration& found) {
+  camera.registration = found.rotation;
+  camera.ball.outline = found.outline;
 }
 
 void register_cameras(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
@@ -146,10 +156,10 @@ void register_cameras(Setup& setup, const std::filesystem::path& folder, Progres
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     SetupCamera& camera = setup.cameras[n];
     if (camera.pose) continue;
-    const auto found = registration(setup, n, progress);
+    const auto found = registration(setup, n, {.keeps_outline = seeks_box(setup)}, progress);
     camera.is_registered = found.has_value();
     if (found) {
-      camera.registration = *found;
+      accept(camera, *found);
     } else {
       const std::string rig = in_rig(folder);
       std::string& missing = setup.missing.emplace_back("how ");
@@ -185,9 +195,8 @@ std::string sentence(const optics::Box& box, const std::string& first, const std
   return text;
 }
 
-/// The first box on the floor that cameras prove, and their registrations with it.
+/// The first box on the floor that cameras prove.
 void find_obstacle(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
-  if (!setup.walls || !setup.cameras.front().pose) return;
   const std::string first = setup.cameras.front().name;
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     if (!setup.cameras[n].is_registered && !setup.cameras[n].pose) continue;
@@ -200,11 +209,14 @@ void find_obstacle(Setup& setup, const std::filesystem::path& folder, Progress& 
                             " in " + in_rig(folder) + ", or give --obstacle");
     break;
   }
-  if (setup.obstacles.empty() || setup.obstacles.back().remark.empty()) return;
+}
+
+/// Registers cameras again, in the scene as far as it is known, with their outlines.
+void refine_registrations(Setup& setup, Progress& progress) {
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     if (!setup.cameras[n].is_registered) continue;
-    const auto again = registration(setup, n, progress);
-    if (again) setup.cameras[n].registration = *again;
+    const auto again = registration(setup, n, {}, progress);
+    if (again) accept(setup.cameras[n], *again);
   }
 }
 
@@ -242,7 +254,9 @@ Result<> align_cameras(Setup& setup, const std::filesystem::path& folder, Progre
   if (auto found = find_ball(setup, folder); !found) return found;
   say_what_lenses_lack(setup);
   register_cameras(setup, folder, progress);
+  if (!seeks_box(setup)) return {};
   find_obstacle(setup, folder, progress);
+  refine_registrations(setup, progress);
   return {};
 }
 

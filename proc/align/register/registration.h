@@ -17,15 +17,19 @@ struct ReferenceCamera {
   optics::BallProjection ball;
 };
 
-/// The camera whose rotation is sought. Its outline in `camera` is right; its registration is the
-/// start where a method needs one.
+/// The camera whose rotation is sought. Its outline in `camera` is right, to a fraction of a pixel
+/// for gradients; its registration is the start where a method needs one.
 struct SoughtCamera {
   Picture picture;
   optics::Rig rig;  ///< ball and scene, the same as the reference camera's
   optics::RigCamera camera;
-  /// Standard deviation of the outline's centre and radius, as a share of the radius. Above 0 they
-  /// are refined along with the rotation; 0: they are kept.
+  /// Standard deviation of the outline's centre and radius, as a share of the radius. Above 0
+  /// features refine them along with the rotation; 0: they keep them. Gradients refine them unless
+  /// keeps_outline is set, see kOutlinePrior.
   double outline_sigma = 0;
+  /// For gradients, where the scene lacks something that is sought afterwards: a refined outline
+  /// would take up a part of its parallax.
+  bool keeps_outline = false;
 };
 
 /// A camera's rotation relative to the reference frame, and its accuracy.

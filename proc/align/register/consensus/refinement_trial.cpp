@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proc/align/register/consensus/refinement_trial.h"
 
+#include "proc/align/register/place_change.h"
 #include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
-
-using optics::Outline;
 
 RefinementTrial::RefinementTrial(const SoughtCamera& sought, const RefinementState& start)
     : sought_(sought), start_(start) {
@@ -29,12 +28,7 @@ RefinementState RefinementTrial::state() const { return state(unknowns); }
 RefinementState RefinementTrial::state(const Unknowns& x) const {
   RefinementState moved = start_;
   moved.rotation = rotation_about({x[0], x[1], x[2]}) * start_.rotation;
-  Outline& outline = moved.outline;
-  const double radius = optics::mean_radius(outline);
-  outline.centre.u += x[3] * radius;
-  outline.centre.v += x[4] * radius;
-  outline.rx *= 1 + x[5];
-  outline.ry *= 1 + x[5];
+  moved.outline = changed(start_.outline, x[3], x[4], x[5]);
   if (moved.room) moved.room->mean = x[6];
   return moved;
 }

@@ -13,6 +13,7 @@
 #include "proc/align/matrix3.h"
 #include "proc/align/register/gradients/gradient_field.h"
 #include "proc/align/register/gradients/gradient_similarity.h"
+#include "proc/align/register/gradients/place_fit.h"
 #include "proc/align/register/sphere_view.h"
 #include "proc/align/register/spiral.h"
 #include "proc/align/rotation_fit.h"
@@ -30,7 +31,9 @@ constexpr int kCoarseDirections = 8000;
 constexpr double kCoarse = 2.5;  // sigma of smoothing, degrees
 constexpr std::array kFiner{2.5, 1.5, 1.0,
                             0.8};  // sigma of each round, which starts from the last one's result
-constexpr double kGridStep = 2;    // degrees
+// The same of each round that fits the outline, too.
+constexpr std::array kWithOutline{0.8, 0.5};
+constexpr double kGridStep = 2;  // degrees
 constexpr std::size_t kCandidates = 4;
 constexpr double kApart = 3;               // degrees between candidates
 constexpr double kSame = 1.5;              // degrees below which two summits are one
@@ -53,11 +56,14 @@ class Scenery {
     });
   }
 
+  /// The sought camera's outline as given.
+  const optics::Outline& outline() const { return *sought_.camera.outline; }
+
   /// The reference camera's edges. `smoothing`: sigma, degrees.
   GradientField reference(double smoothing) const { return {reference_, smoothing * resolution_}; }
-  /// The sought camera's edges under the assumption of `rotation`.
-  Result<GradientField> camera(const Mat3& rotation, double smoothing) const {
-    return turned(sought_, rotation, *sought_.camera.outline)
+  /// The sought camera's edges under the assumption of a place.
+  Result<GradientField> camera(const Place& place, double smoothing) const {
+    return turned(sought_, place.rotation, place.outline)
         .and_then(
             [&](const BallProjection& ball) { return sphere_faces(picture_, ball, resolution_); })
         .map([&](const auto& faces) { return GradientField(faces, smoothing * resolution_); });
@@ -127,34 +133,12 @@ double distinction(const GradientSimilarity& similarity, double value) {
   return (value - mean) / std::sqrt(std::max(squares / kTurns - mean * mean, 1e-12));
 }
 
-/// Result from one candidate.
+/// Result from one candidate, with the outline as given.
 struct Outcome {
   Mat3 rotation;
   double similarity = 0;
   double distinction = 0;
-  Mat3 covariance;
-  double residual = 0;  ///< degrees
-  int inliers = 0;
 };
-
-/// Covariance from the disagreement of the sphere's parts about the turn (a sandwich estimate).
-std::optional<Mat3> covariance(const GradientSimilarity& similarity, const Summit& summit,
-                               double step) {
-  constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  if (!is_positive_definite(summit.curvature * -1)) return std::nullopt;
-  std::array<Vec3, GradientField::kParts> slopes;
-  for (const Vec3& axis : kAxes) {
-    const auto high = similarity.parts(summit.turn + axis * step);
-    const auto low = similarity.parts(summit.turn - axis * step);
-    for (std::size_t part = 0; part < slopes.size(); ++part) {
-      slopes[part] = slopes[part] + axis * ((high[part] - low[part]) / (2 * step));
-    }
-  }
-  Mat3 spread{{}, {}, {}};
-  for (const Vec3& slope : slopes) spread = spread + outer(slope, slope);
-  const Mat3 inverted = inverse(summit.curvature);
-  return inverted * spread * inverted;
-}
 
 /// `on_round` is called before each round; its error ends the search.
 Result<Outcome> follow(const Scenery& scenery, const Mat3& start,
@@ -163,27 +147,24 @@ Result<Outcome> follow(const Scenery& scenery, const Mat3& start,
   outcome.rotation = start;
   for (const double smoothing : kFiner) {
     if (auto wanted = on_round(); !wanted) return tl::unexpected(wanted.error());
-    const auto field = scenery.camera(outcome.rotation, smoothing);
+    const auto field = scenery.camera({outcome.rotation, scenery.outline()}, smoothing);
     if (!field) return tl::unexpected(field.error());
     const GradientSimilarity similarity(scenery.reference(smoothing).samples(kDirections), *field);
     const double least = radians(0.4 * smoothing);
     const Summit summit = climb(similarity, {}, 2 * least, least);
+    if (!is_positive_definite(summit.curvature * -1)) {
+      return fail("the edges agree along a ridge and do not determine the rotation");
+    }
     outcome.rotation = rotation_about(summit.turn) * outcome.rotation;
     outcome.similarity = summit.value;
     outcome.distinction = distinction(similarity, summit.value);
-    outcome.inliers = similarity.agreeing(summit.turn);
-    const auto spread = covariance(similarity, summit, least);
-    if (!spread) return fail("the edges agree along a ridge and do not determine the rotation");
-    outcome.covariance = *spread;
-    const double trace = spread->row0.x + spread->row1.y + spread->row2.z;
-    outcome.residual = optics::degrees(std::sqrt(trace / 3 * GradientField::kParts));
   }
   return outcome;
 }
 
 /// The best of all candidates, if no other is close to it.
 Result<Outcome> best_of(const Scenery& scenery, const Mat3& start, const WorkProgress& progress) {
-  const auto field = scenery.camera(start, kCoarse);
+  const auto field = scenery.camera({start, scenery.outline()}, kCoarse);
   if (!field) return tl::unexpected(field.error());
   const std::vector<Summit> summits =
       coarse_search({scenery.reference(kCoarse).samples(kCoarseDirections), *field});
@@ -212,6 +193,36 @@ Result<Outcome> best_of(const Scenery& scenery, const Mat3& start, const WorkPro
   return best;
 }
 
+/// What the last round of a fit with the outline tells.
+struct Refined {
+  PlaceFit fit;
+  int inliers = 0;
+};
+
+Result<Refined> refined(const Scenery& scenery, const SoughtCamera& sought, const Mat3& rotation) {
+  Refined best{{{rotation, scenery.outline()}, {}}, 0};
+  for (const double smoothing : kWithOutline) {
+    const auto field = scenery.camera(best.fit.place, smoothing);
+    if (!field) return tl::unexpected(field.error());
+    const auto samples = scenery.reference(smoothing).samples(kDirections);
+    const auto fit = fit_place(samples, *field, sought, best.fit.place, smoothing);
+    if (!fit) return tl::unexpected(fit.error());
+    best = {*fit, GradientSimilarity(samples, *field).agreeing({})};
+  }
+  return best;
+}
+
+/// Covariance of the turn alone.
+Mat3 turn_covariance(const PlaceCovariance& c) {
+  return {{c(0, 0), c(0, 1), c(0, 2)}, {c(1, 0), c(1, 1), c(1, 2)}, {c(2, 0), c(2, 1), c(2, 2)}};
+}
+
+/// Degrees rms between both cameras' sights of the same edge, on average over a part of the sphere.
+double residual(const Mat3& covariance) {
+  const double trace = covariance.row0.x + covariance.row1.y + covariance.row2.z;
+  return optics::degrees(std::sqrt(trace / 3 * GradientField::kParts));
+}
+
 }  // namespace
 
 Result<Registration> register_by_gradients(const ReferenceCamera& reference,
@@ -220,19 +231,24 @@ Result<Registration> register_by_gradients(const ReferenceCamera& reference,
   if (auto wanted = progress.at(WorkStep::Edges); !wanted) return tl::unexpected(wanted.error());
   const auto scenery = Scenery::make(reference, sought);
   if (!scenery) return tl::unexpected(scenery.error());
-  const auto best = best_of(*scenery, sought.camera.registration, progress);
+  const auto best =
+      best_of(*scenery, sought.camera.registration, progress).and_then([&](const Outcome& outcome) {
+        return refined(*scenery, sought, outcome.rotation);
+      });
   if (!best) {
     return fail(best.error().message +
                 ": start nearer, by marking points or from process light, or state the room's "
                 "geometry");
   }
-  const auto ball = turned(sought, best->rotation, *sought.camera.outline);
+  const Place& place = best->fit.place;
+  const auto ball = turned(sought, place.rotation, place.outline);
   if (!ball) return tl::unexpected(ball.error());
   const double share = overlap(reference.ball, reference.picture.width, reference.picture.height,
                                *ball, sought.picture.width, sought.picture.height);
-  return trusted({best->rotation, *sought.camera.outline, best->residual, share, best->inliers,
-                  best->covariance},
-                 kLeastEdges);
+  const Mat3 covariance = turn_covariance(best->fit.covariance);
+  return trusted(
+      {place.rotation, place.outline, residual(covariance), share, best->inliers, covariance},
+      kLeastEdges);
 }
 
 }  // namespace orbwatch::align

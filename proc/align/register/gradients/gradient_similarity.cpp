@@ -2,7 +2,7 @@
 #include "proc/align/register/gradients/gradient_similarity.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
 
 #include "proc/align/matrix3.h"
 #include "proc/align/rotation_fit.h"
@@ -68,19 +68,13 @@ void GradientSimilarity::visit(const Vec3& turn, const Visit& each) const {
 }
 
 double GradientSimilarity::at(const Vec3& turn) const {
-  const Parts all = parts(turn);
-  return std::accumulate(all.begin(), all.end(), 0.0);
-}
-
-GradientSimilarity::Parts GradientSimilarity::parts(const Vec3& turn) const {
-  Parts sums{};
+  double sum = 0;
   int count = 0;
-  visit(turn, [&](const GradientField::Sample& sample, double similarity) {
-    sums[sample.part] += similarity;
+  visit(turn, [&](const GradientField::Sample&, double similarity) {
+    sum += similarity;
     ++count;
   });
-  for (double& sum : sums) sum /= std::max(count, 1);
-  return sums;
+  return sum / std::max(count, 1);
 }
 
 int GradientSimilarity::agreeing(const Vec3& turn) const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "proc/align/register/gradients/gradient_field.h"
@@ -19,10 +18,6 @@ class GradientSimilarity {
   /// Similarity, 0 to 1: the mean of cos^2 between gradients, times their lengths, over the part
   /// that both show. `turn`: radians about the reference frame's axes.
   double at(const optics::Vec3& turn) const;
-
-  /// The same for each part of the sphere; their sum is at().
-  using Parts = std::array<double, GradientField::kParts>;
-  Parts parts(const optics::Vec3& turn) const;
 
   /// Number of samples that agree within about 30 degrees.
   int agreeing(const optics::Vec3& turn) const;

@@ -65,6 +65,7 @@ std::optional<Outcome> run(std::uint64_t seed, bool table, bool boxes_stated) {
   const Vec3 axis = optics::normalized({any(random), any(random), any(random)});
   align::SoughtCamera sought = pair.unknown();
   sought.camera.registration = align::rotation_about(axis * optics::radians(4)) * pair.truth;
+  sought.keeps_outline = true;
   const auto registered = align::register_by_gradients(pair.reference(), sought);
   if (!registered) return std::nullopt;
   sought.camera.registration = registered->rotation;

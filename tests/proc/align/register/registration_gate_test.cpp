@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/files/rig/rig_file.h"
 #include "proc/align/detect/ball_detector.h"
+#include "proc/align/matrix3.h"
 #include "proc/align/register/camera_registration.h"
 #include "proc/align/register/features/feature_registration.h"
 #include "proc/align/register/gradients/gradient_registration.h"
@@ -93,18 +95,80 @@ TEST(RegistrationGate, ColourOnColourWithoutAStatedScene) {
   tally.expect(cases, 0.1, 0.3);
 }
 
+/// A thermal camera on a colour camera in simulated room `n`, started up to 8 degrees off.
+struct ThermalCase {
+  explicit ThermalCase(int n)
+      : pair(camera_pair(75'000 + static_cast<std::uint64_t>(n), true)), sought(pair.unknown()) {
+    std::mt19937_64 random(75'000 + static_cast<std::uint64_t>(n));
+    sought.camera.registration = turned_away(pair.truth, 8.0 * (n % 9) / 8, random);
+  }
+
+  CameraPair pair;
+  align::SoughtCamera sought;
+};
+
+/// Squared error in units of the stated covariance: about 3 if it is right.
+double chi_square(const Registration& found, const Mat3& truth) {
+  const Mat3 off = found.rotation * transposed(truth);
+  const optics::Vec3 turn{(off.row2.y - off.row1.z) / 2, (off.row0.z - off.row2.x) / 2,
+                          (off.row1.x - off.row0.y) / 2};
+  return dot(turn, align::inverse(found.covariance) * turn);
+}
+
+/// Chi-squares of rooms: their mean is within 3 standard errors of 3, half of it allowed for.
+void expect_honest(const std::vector<double>& squares) {
+  ASSERT_FALSE(squares.empty());
+  double sum = 0;
+  for (const double one : squares) sum += one;
+  const auto count = static_cast<double>(squares.size());
+  const double mean = sum / count, error = std::sqrt(6 / count);
+  std::printf("chi-square %.2f, 3 expected\n", mean);
+  testing::Test::RecordProperty("chi-square", std::to_string(mean));
+  EXPECT_LT(mean, 3 + 3 * error);
+  EXPECT_GT(mean, 1) << "sigma is exaggerated";
+}
+
 TEST(RegistrationGate, ThermalOnColour) {
   const int cases = share_of(100);
   Tally tally("thermal on colour, deg");
+  std::vector<double> squares;
   for (int n = 0; n < cases; ++n) {
-    const auto seed = 75'000 + static_cast<std::uint64_t>(n);
-    const CameraPair pair = camera_pair(seed, true);
-    std::mt19937_64 random(seed);
-    align::SoughtCamera sought = pair.unknown();
-    sought.camera.registration = turned_away(pair.truth, 8.0 * (n % 9) / 8, random);
-    tally.add(align::register_by_gradients(pair.reference(), sought), pair.truth);
+    const ThermalCase room(n);
+    const auto found = align::register_by_gradients(room.pair.reference(), room.sought);
+    tally.add(found, room.pair.truth);
+    if (found) squares.push_back(chi_square(*found, room.pair.truth));
   }
   tally.expect(cases, 0.3, 0.8);
+  expect_honest(squares);
+}
+
+TEST(RegistrationGate, ThermalOnColourWithAnOutlineThatIsOff) {
+  const int cases = share_of(100);
+  Tally tally("thermal on colour, outline off by 0.3 px, deg");
+  std::vector<double> squares;
+  ErrorDistribution outlines("outline, px");
+  for (int n = 0; n < cases; ++n) {
+    ThermalCase room(n);
+    std::mt19937_64 random(76'000 + static_cast<std::uint64_t>(n));
+    std::normal_distribution<double> off(0, 0.3);
+    optics::Outline& outline = *room.sought.camera.outline;
+    const optics::Outline truth = outline;
+    outline.centre.u += off(random);
+    outline.centre.v += off(random);
+    const double wider = off(random);
+    outline.rx += wider;
+    outline.ry += wider;
+    const auto found = align::register_by_gradients(room.pair.reference(), room.sought);
+    tally.add(found, room.pair.truth);
+    if (!found) continue;
+    squares.push_back(chi_square(*found, room.pair.truth));
+    outlines.add(std::hypot(found->outline.centre.u - truth.centre.u,
+                            found->outline.centre.v - truth.centre.v));
+  }
+  tally.expect(cases, 0.3, 0.8);
+  outlines.report();
+  EXPECT_LE(outlines.p50(), 0.25) << "0.35 px as given";
+  expect_honest(squares);
 }
 
 TEST(RegistrationGate, WrongStartsAndOtherRoomsAreRefusedOrFoundAllTheSame) {
