@@ -7,6 +7,7 @@
 
 #include "proc/align/detect/ball_search.h"
 #include "proc/align/detect/certainty.h"
+#include "proc/align/detect/defocus.h"
 #include "proc/align/detect/picture/luminance.h"
 
 namespace orbwatch::align {
@@ -16,6 +17,8 @@ constexpr int kSmallestSide = 64;
 /// A difference() from which on two limbs are different places. A second one less certain by at
 /// most kRival makes the best one doubtful.
 constexpr double kElsewhere = 0.5, kRival = 2.6;
+/// Confidence in a ball whose outline may be too large.
+constexpr double kDoubtful = 0.4;
 
 /// True when `inner` lies within `outer`, up to a twentieth of its radius.
 bool is_within(const optics::Outline& inner, const optics::Outline& outer) {
@@ -57,7 +60,12 @@ Result<BallDetection> detect_ball(const Picture& picture) {
   const bool rival = has_rival(limbs);
   const double odds = certainty(best.evidence) - kCertain;
   BallDetection ball{best.outline, 1 / (1 + std::exp(-(rival ? std::min(odds, -0.1) : odds))), ""};
-  if (!ball.is_confident()) ball.reason = doubt(best.evidence, rival);
+  if (!ball.is_confident()) {
+    ball.reason = doubt(best.evidence, rival);
+  } else if (is_out_of_focus(picture, best.outline)) {
+    ball.confidence = kDoubtful;
+    ball.reason = "it is out of focus, so that its outline may be too large; focus on the ball";
+  }
   return ball;
 }
 
