@@ -39,7 +39,7 @@ struct Stage {
   std::size_t most;  ///< limbs that are fitted
   double apart;      ///< the difference() from which on two are worth a fit each
 };
-constexpr Stage kStages[]{{30, 18, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
+constexpr Stage kStages[]{{45, 24, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
 
 }  // namespace
 
