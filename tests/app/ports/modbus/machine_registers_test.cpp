@@ -22,7 +22,7 @@ using tests::Words;
 constexpr int kOutside = 3, kNotServed = 2;
 
 /// What the sink hands over.
-class Machine {
+class TakenStates {
  public:
   MachinePath path(MachineSource source = MachineSource::Modbus) {
     return {source, [this](const MachineState& state) -> Result<> {
@@ -79,7 +79,7 @@ class MachineRegisters : public testing::Test {
     plc_.emplace(sink_->port());
   }
 
-  Machine machine_;
+  TakenStates machine_;
   std::optional<ModbusSink> sink_;
   std::optional<Plc> plc_;
 };

@@ -53,6 +53,9 @@ def write_all(client, rows):
     for row in rows:
         if row["access"] != "rw":
             continue
+        if row["name"].startswith("state_"):
+            yield from write_part_of_state(client, row)
+            continue
         client.write(row["address"], read(client, row))
         if row["count"] == 2:
             try:
@@ -61,6 +64,16 @@ def write_all(client, rows):
             except Refused as refused:
                 if refused.code != 2:
                     yield f"{row['name']}: half of it is refused with {refused}"
+
+
+def write_part_of_state(client, row):
+    """The state of the machine is written whole or not at all."""
+    try:
+        client.write(row["address"], read(client, row))
+        yield f"{row['name']}: could be written without the rest of the state"
+    except Refused as refused:
+        if refused.code != 2:
+            yield f"{row['name']}: alone it is refused with {refused}"
 
 
 def walk(client, rows):

@@ -34,8 +34,8 @@ MachineStateMessage message(std::uint32_t number, double clock, const char* part
   return message;
 }
 
-/// Takes the sink's states.
-class Machine {
+/// States that the sink handed over.
+class TakenStates {
  public:
   MachinePath path() {
     return {MachineSource::Dds, [this](const MachineState& state) -> Result<> {
@@ -73,7 +73,7 @@ class MachineStates : public testing::Test {
   }
 
   DdsNetwork network_;
-  Machine machine_;
+  TakenStates machine_;
   std::optional<DdsSink> sink_;
 };
 

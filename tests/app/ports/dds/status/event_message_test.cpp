@@ -102,7 +102,7 @@ TEST_F(EventMessageTest, EveryFieldArrives) {
     const auto text = [&](std::string_view name) -> std::string {
       return tests::figure(event.figures, name).text;
     };
-    EXPECT_EQ(event.figures._length, 9u);
+    EXPECT_EQ(event.figures._length, 11u);
     EXPECT_EQ(value("alarm"), 5) << "as acknowledge_alarm counts";
     EXPECT_EQ(value("event"), 0);
     EXPECT_EQ(text("event"), "raised");

@@ -149,7 +149,7 @@ TEST_F(WireFormatTest, EventIsPlainCdr) {
   expected.text("1, weld: " + signal).number<std::uint8_t>(2);
   expected.text("weld: " + signal + " raised, high alarm, 1.5" +
                 (unit.empty() ? "" : " " + std::string(unit)));
-  expected.number<std::uint32_t>(9);
+  expected.number<std::uint32_t>(11);
   figure(expected, "alarm", 1);
   figure(expected, "event", 0, "", "raised");
   figure(expected, "state", 1, "", "in alarm, not acknowledged");
@@ -159,6 +159,8 @@ TEST_F(WireFormatTest, EventIsPlainCdr) {
   figure(expected, "region", 0, "", "weld");
   figure(expected, "recipe", tests::kRecipe);
   figure(expected, "frame_set", 9);
+  figure(expected, "part", signals::kNotValid);
+  figure(expected, "layer", signals::kNotValid);
   EXPECT_EQ(sample.payload, expected.bytes());
 }
 

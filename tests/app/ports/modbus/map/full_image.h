@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "tests/app/ports/modbus/map/registers.h"
 
-namespace orbwatch::app::modbus::tests {
+namespace orbwatch::app::modbus {
 
 /// All registers without mirrors, and their names; a "?" marks bits, because words may have the
 /// same names.
@@ -57,7 +58,7 @@ inline void measure_something(StampedStatus& stamped, double share) {
   machine.quality = MachineQuality::Good;
   machine.part = *PartName::make(std::string(PartName::kMost, 'x'));
   for (const MachineValue& value : kMachineValues) {
-    machine.values.*value.get = value.minimum + share * (value.maximum - value.minimum);
+    machine.values.*value.get = std::ceil(value.minimum + share * (value.maximum - value.minimum));
   }
   machine.vx = machine.vy = machine.vz = 10;
 }
@@ -94,4 +95,4 @@ inline ProcessImage full_image() {
   return image;
 }
 
-}  // namespace orbwatch::app::modbus::tests
+}  // namespace orbwatch::app::modbus

@@ -15,8 +15,6 @@ namespace orbwatch::app::modbus {
 namespace {
 
 using std::chrono::milliseconds;
-using tests::full_image;
-using tests::Registers;
 using Names = std::set<std::string>;
 
 std::string numbered(const std::string& thing, std::size_t number, const std::string& what) {
@@ -149,7 +147,8 @@ void RegisterSources::expect_system() {
   for (std::size_t i = 0; i < kMaxCameras; ++i) deliver.insert(numbered("camera", i, "delivers?"));
   expect([](ProcessImage& s) { s.stale = true; },
          deliver + Names{"stale?", "status_bits", "fault_bits", "measurement_bits"});
-  Names ages{"system_stamp_age", "plc_heartbeat_age"};
+  Names ages{"system_stamp_age", "plc_heartbeat_age", "machine_state_age",
+             "result_machine_state_age"};
   for (std::size_t i = 0; i < kMaxCameras; ++i)
     ages.insert(numbered("camera", i, "last_frame_age"));
   for (std::size_t i = 1; i <= signals::kMaxAlarms; ++i)
