@@ -55,7 +55,8 @@ class AlignCase(PageCase):
             camera = self.camera(name) or {}
             self.assertNotEqual(camera.get("state"), REFUSED, camera.get("refusal"))
             return camera.get("state") == READY and camera["proposed"]
-        return eventually(f"a proposal for {name}", answered)
+        # A registration takes ten seconds of a processor, of which a busy machine has little.
+        return eventually(f"a proposal for {name}", answered, 5 * PATIENCE_S)
 
     def calibrations(self):
         file = self.appliance.folder / "state/calibration.toml"

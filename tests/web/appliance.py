@@ -23,13 +23,13 @@ LOOPBACK_DDS = (
     '<Peers><Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>')
 
 
-def eventually(what, condition):
+def eventually(what, condition, patience_s=PATIENCE_S):
     """Returns the result of `condition` as soon as it is true in Python's sense; polls a real
     program."""
-    give_up = time.monotonic() + PATIENCE_S
+    give_up = time.monotonic() + patience_s
     while not (value := condition()):
         if time.monotonic() > give_up:
-            raise AssertionError(f"not within {PATIENCE_S} s: {what}")
+            raise AssertionError(f"not within {patience_s} s: {what}")
         time.sleep(0.05)
     return value
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/recorder/recorder_sink.h"
 
+#include <cerrno>
 #include <utility>
 
 #include "app/log.h"
@@ -90,7 +91,8 @@ FileResult<> RecorderSink::record() {
       ++counters_.lost;
       continue;
     }
-    const StatusReport report{state->status, names_, hal::Clock::now(), state->stamp};
+    // Ages count until the exposure, so that they do not depend on when this is written.
+    const StatusReport report{state->status, names_, state->status.stamp, state->stamp};
     ++unflushed_states_;
     auto written = file_->write_state(report);
     if (!written) return written;

@@ -68,7 +68,6 @@ class RecorderSink final : public Sink {
   const RecorderSettings settings_;
   const StatusNames names_;
   const RecordedTexts texts_;
-  const recorder::RecordingFolder folder_;
 
   // Shared by the pipeline's thread and the recorder's.
   hal::BoundedQueue<StampedState, kMostStates> states_;
@@ -81,6 +80,7 @@ class RecorderSink final : public Sink {
   recorder::RecorderCounters counters_;
 
   // The recorder's thread's.
+  recorder::RecordingFolder folder_;
   bool is_prepared_ = false;
   std::optional<recorder::LogFile> file_;
   hal::TimePoint next_flush_{}, next_file_{}, next_try_{};

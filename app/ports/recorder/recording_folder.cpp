@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <string>
 #include <system_error>
 
 #include "app/log.h"
@@ -27,15 +28,17 @@ std::string text_of(const fs::path& folder, const std::error_code& error) {
 
 }  // namespace
 
-Result<> RecordingFolder::prepare() const {
+Result<> RecordingFolder::prepare() {
   std::error_code error;
   fs::create_directories(settings_.folder, error);
   if (error) return fail(text_of(settings_.folder, error));
   const auto recordings = list();
   if (!recordings) return tl::unexpected(recordings.error());
   for (const Recording& recording : *recordings) {
+    if (unfinished_.contains(recording.file)) continue;
     const auto completed = hal::mcap::complete(recording.file);
     if (!completed) {
+      unfinished_.insert(recording.file);
       log_line(LogLevel::Warning, "recorder: " + recording.file.string() +
                                       " cannot be finished: " + completed.error().message);
     } else if (!completed->was_finished) {

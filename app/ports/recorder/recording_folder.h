@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <string>
+#include <set>
 #include <vector>
 
 #include "app/ports/recorder/recorder_settings.h"
@@ -26,7 +26,7 @@ class RecordingFolder {
 
   /// Creates the folder and finishes recordings that an earlier run did not end; what cannot be
   /// finished is logged and stays. Error: the folder.
-  Result<> prepare() const;
+  Result<> prepare();
 
   /// Recordings, the oldest first by their names.
   Result<std::vector<Recording>> list() const;
@@ -41,6 +41,7 @@ class RecordingFolder {
 
  private:
   const RecorderSettings settings_;
+  std::set<std::filesystem::path> unfinished_;  ///< those that cannot be finished, logged once
 };
 
 }  // namespace orbwatch::app::recorder

@@ -115,10 +115,10 @@ TEST_F(Recorder, OthersReadEachFigureByItsDefinition) {
                   static_cast<long long>(std::chrono::nanoseconds(utc - second).count()));
     const std::string at =
         "/orbwatch/process_state orbwatch_msgs/msg/ProcessState " + std::to_string(n) + " ";
-    for (const auto& [component, readings] : status_readings({status, names_, {}, utc})) {
+    for (const auto& [component, readings] : status_readings({status, names_, status.stamp, utc})) {
       const bool is_recorded = component.kind == "region" || component.kind == "machine";
       for (const Reading& reading : readings) {
-        if (!is_recorded || reading.name == "state_age") continue;
+        if (!is_recorded) continue;
         std::ostringstream line;
         line << at << component.kind << " " << component.name << " " << reading.name << " ";
         if (std::isnan(reading.value)) {
@@ -142,9 +142,8 @@ TEST_F(Recorder, OthersReadEachFigureByItsDefinition) {
   Lines read;
   std::istringstream output(program.output());
   for (std::string line; std::getline(output, line);) {
-    const bool is_compared = (line.find(" region ") != std::string::npos ||
-                              line.find(" machine ") != std::string::npos) &&
-                             line.find(" state_age ") == std::string::npos;
+    const bool is_compared =
+        line.find(" region ") != std::string::npos || line.find(" machine ") != std::string::npos;
     // The stamp stands between the frame set's number and the component.
     const std::size_t set = line.find(' ', line.find("ProcessState ") + 13);
     const std::size_t part = line.find(' ', set + 1);
