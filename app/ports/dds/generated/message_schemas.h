@@ -92,6 +92,27 @@ float64 value  # in the unit; a code's number; 0 or 1 for a flag; NaN: not valid
 string unit  # "mm", "degC", "1/s"; empty: a count, a code, a flag or a ratio
 string text  # meaning of a code; true or false for a flag; else empty
 )msg"},
+    MessageSchema{"orbwatch_msgs/msg/MachineState", R"msg(# State of the machine, sent by its controller 10 to 250 times a second. Each number may be NaN: not known.
+
+uint32 number  # number of the state; one that repeats the number before is ignored
+float64 clock  # the controller's clock at the moment of the state, s since any moment; NaN: the time stamp of the sample counts
+string<=32 part  # name of the part, UTF-8; empty: none
+float64 program  # number of the program
+float64 layer  # number of the layer
+float64 track  # number of the track in the layer
+float64 x  # position of the tool, mm, controller's frame
+float64 y  # mm
+float64 z  # mm
+float64 a  # rotary axis A, deg
+float64 b  # deg
+float64 c  # deg
+float64 feed  # commanded feed, mm/min
+float64 laser_power  # W
+float64 powder_flow  # g/min
+float64 laser_on  # 0 or 1
+float64 program_running  # 0 or 1
+float64 trigger_count  # camera triggers sent so far; 0: not counted
+)msg"},
     MessageSchema{"orbwatch_msgs/msg/ProcessState", R"msg(# Measurements and condition of orbwatch, one sample per frame set.
 
 std_msgs/Header header  # stamp: same as in the images of the frame set, 0: none yet
@@ -115,7 +136,7 @@ uint32 nanosec
 MSG: orbwatch_msgs/Component
 # One part of the appliance. Figures are appended to those of a kind, never moved or removed.
 
-string kind  # system, region, alarm, camera, view, health, commands; kinds may be added
+string kind  # system, region, alarm, camera, view, health, machine, commands; kinds may be added
 string name  # its number from 1 if it has no name; empty if it is the only one of its kind
 Figure[] figures
 ================================================================================
