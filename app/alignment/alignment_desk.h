@@ -119,7 +119,7 @@ class AlignmentDesk : public AlignmentSource {
     std::optional<optics::Vec2> picked;
   };
 
-  /// What a command has begun.
+  /// Computation that a command has begun.
   struct Work {
     std::size_t camera;
     Task task;

@@ -15,7 +15,7 @@
 
 namespace orbwatch::app::machine {
 
-/// What the machine says, associated with exposures by time. A state's moment is its arrival less
+/// States of the machine, associated with exposures by time. A state's moment is its arrival less
 /// the configured delay, or what the controller's clock says, see ControllerClock. Thread rule:
 /// take() on any thread, the rest on the pipeline's; nobody waits for longer than a copy.
 class MachineFollower {

@@ -50,11 +50,11 @@ using StringMap = std::vector<std::pair<std::string, std::string>>;
 struct Header {
   static constexpr Opcode kOpcode = Opcode::Header;
   std::string profile = "ros2";
-  std::string library = "orbwatch";
+  std::string writer = "orbwatch";  ///< name of the program
 
   template <class Self, class Fields>
   static auto visit(Self& self, Fields& fields) {
-    return fields(self.profile, self.library);
+    return fields(self.profile, self.writer);
   }
 };
 
@@ -99,7 +99,7 @@ struct Channel {
   }
 };
 
-/// What a message has in front of its data.
+/// Fields in front of a message's data.
 struct MessageHead {
   static constexpr Opcode kOpcode = Opcode::Message;
   std::uint16_t channel_id = 0;
@@ -114,7 +114,7 @@ struct MessageHead {
   }
 };
 
-/// What a chunk has in front of its records.
+/// Fields in front of a chunk's records.
 struct ChunkHead {
   static constexpr Opcode kOpcode = Opcode::Chunk;
   std::uint64_t message_start_time = 0;  ///< earliest log_time
@@ -165,7 +165,7 @@ struct ChunkIndex {
   }
 };
 
-/// What an attachment has in front of its data; the data's CRC follows it.
+/// Fields in front of an attachment's data; the data's CRC follows it.
 struct AttachmentHead {
   static constexpr Opcode kOpcode = Opcode::Attachment;
   std::uint64_t log_time = 0;

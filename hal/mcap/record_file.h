@@ -11,7 +11,7 @@
 /// Reading of single records of a file of any origin.
 namespace orbwatch::hal::mcap {
 
-/// What stands in front of a record's content.
+/// Opcode and length in front of a record's content.
 struct RecordHead {
   Opcode opcode{};
   std::uint64_t length = 0;  ///< of the content

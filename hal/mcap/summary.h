@@ -9,7 +9,8 @@
 
 namespace orbwatch::hal::mcap {
 
-/// What a file holds and where: its summary section, or the same found by a scan of its data.
+/// Contents of a file with their places: its summary section, or the same found by a scan of its
+/// data.
 struct Summary {
   std::map<std::uint16_t, Schema> schemas;
   std::map<std::uint16_t, Channel> channels;

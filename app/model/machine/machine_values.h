@@ -8,7 +8,7 @@
 #include "app/model/command/command.h"
 #include "app/model/status/field.h"
 
-/// What a machine says of itself besides its part: numbers, each declared once.
+/// Numbers of a machine's state, each declared once; the part has a name.
 namespace orbwatch::app {
 
 /// Derivation of a value at an exposure from the states around it.

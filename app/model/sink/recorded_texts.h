@@ -8,7 +8,7 @@
 
 namespace orbwatch::app {
 
-/// What a recording holds besides its messages, so that it explains itself: the configuration that
+/// Texts in a recording besides its messages, so that it explains itself: the configuration that
 /// was measured with.
 struct RecordedTexts {
   std::map<std::string, std::string> files;  ///< texts by name: "site.toml", "rig.toml"

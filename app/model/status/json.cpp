@@ -15,7 +15,7 @@ void add(Json& object, const Reading& reading) {
     object[name] = reading.text == "true";
     return;
   }
-  if (!reading.text.empty() && !signals::is_valid(reading.value)) {
+  if (is_text(reading)) {
     object[name] = reading.text;
     return;
   }

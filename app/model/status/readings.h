@@ -27,6 +27,11 @@ struct Reading {
   bool operator==(const Reading&) const = default;
 };
 
+/// True: a text without a number, such as a name; the text of a code has its number.
+inline bool is_text(const Reading& reading) {
+  return !reading.text.empty() && !signals::is_valid(reading.value);
+}
+
 inline Reading reading_of(const FieldInfo& field, double value, hal::TimePoint /*now*/) {
   return {field.name, value, field.unit, {}};
 }

@@ -150,7 +150,8 @@ void RecorderSink::count_flushed() {
   counters_.events += std::exchange(unflushed_events_, 0);
 }
 
-/// What was not flushed is lost. The file stays as it is; preparing the folder finishes it.
+/// Messages that were not flushed are lost. The file stays as it is; preparing the folder finishes
+/// it.
 void RecorderSink::give_up(const std::string& reason) {
   file_.reset();
   counters_.lost += std::exchange(unflushed_states_, 0) + std::exchange(unflushed_events_, 0);

@@ -57,7 +57,7 @@ std::string text_of(const tests::RecordedMessage& message) {
          hex(message.data);
 }
 
-/// What our own reader reads, as readers/read.mjs prints it.
+/// Lines that readers/read.mjs would print, from our own reader.
 Lines lines_of(Reader& reader) {
   Lines lines;
   for (const auto& [id, schema] : reader.summary().schemas) {

@@ -48,7 +48,7 @@ TEST_P(RoundTrip, KeepsEveryByteFinishedOrNot) {
       Reader reader = tests::opened(path);
       EXPECT_EQ(reader.is_finished(), is_finished);
       EXPECT_EQ(reader.header().profile, "ros2");
-      EXPECT_EQ(reader.header().library, "orbwatch test");
+      EXPECT_EQ(reader.header().writer, "orbwatch test");
       EXPECT_EQ(tests::sets_of(reader), recording.sets);
       expect_attachments(reader, recording.attachments);
       ASSERT_EQ(reader.summary().metadata.size(), 1U);

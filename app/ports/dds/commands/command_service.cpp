@@ -42,10 +42,7 @@ void CommandService::receive(dds_entity_t reader, void* service) {
   const auto take = [&self](const void* sample, const dds_sample_info_t&) {
     self.queue_.put(request_of(*static_cast<const CommandMessage*>(sample)));
   };
-  // The call fails only while the reader is being deleted.
-  for (auto taken = take_samples(reader, take); taken && *taken > 0;) {
-    taken = take_samples(reader, take);
-  }
+  take_all_samples(reader, take);
   self.wake_();
   show_order_of_calls();
 }

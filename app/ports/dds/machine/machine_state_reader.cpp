@@ -43,10 +43,7 @@ void MachineStateReader::receive(dds_entity_t reader, void* self) {
     static_cast<void>(machine_state_of(*static_cast<const MachineStateMessage*>(sample), written)
                           .and_then(handler));
   };
-  // The call fails only while the reader is being deleted.
-  for (auto taken = take_samples(reader, take); taken && *taken > 0;) {
-    taken = take_samples(reader, take);
-  }
+  take_all_samples(reader, take);
   show_order_of_calls();
 }
 

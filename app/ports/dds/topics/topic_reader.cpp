@@ -42,6 +42,12 @@ Result<std::size_t> take_samples(dds_entity_t reader, const AcceptSample& accept
   return static_cast<std::size_t>(count);
 }
 
+void take_all_samples(dds_entity_t reader, const AcceptSample& accept) {
+  for (auto taken = take_samples(reader, accept); taken && *taken > 0;) {
+    taken = take_samples(reader, accept);
+  }
+}
+
 Result<Entity> make_wait_set(const Entity& participant, const std::vector<dds_entity_t>& readers) {
   Entity wait_set(dds_create_waitset(participant.get()));
   if (wait_set.get() < 0) return tl::unexpected(dds_error("wait set", wait_set.get()));

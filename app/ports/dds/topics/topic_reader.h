@@ -45,6 +45,10 @@ using AcceptSample = std::function<void(const void* sample, const dds_sample_inf
 /// number, including those without data. Thread-safe. Error: a failure of DDS.
 Result<std::size_t> take_samples(dds_entity_t reader, const AcceptSample& accept);
 
+/// Takes all samples that a reader holds, for its listener: the call fails only while the reader is
+/// being deleted. Thread-safe.
+void take_all_samples(dds_entity_t reader, const AcceptSample& accept);
+
 /// A wait set that wakes when any of `readers` has data. It is deleted with `participant`; each
 /// reader leaves it when it is deleted.
 Result<Entity> make_wait_set(const Entity& participant, const std::vector<dds_entity_t>& readers);

@@ -17,9 +17,6 @@ namespace orbwatch::app::modbus {
 inline constexpr Quantity kWord{"", 1, 0, 65535};
 inline constexpr Quantity kDoubleWord{"", 1, 0, 4294967295};
 
-/// Registers of a part's name.
-inline constexpr int kPartWords = PartName::kMost / 2;
-
 /// Number of registers that all fields of a part occupy; 32-bit values are at even places.
 template <class Part>
 constexpr int registers_of() {

@@ -14,9 +14,6 @@
 /// All reentrant.
 namespace orbwatch::app::modbus {
 
-/// Content of a measured number without a value.
-inline constexpr std::uint32_t kNotValidCode = 0x80000000;
-
 /// Content of an age beyond 2^31 - 1 ms, or of an event that never happened.
 inline constexpr std::uint32_t kMaxAge = 0x7fffffff;
 

@@ -78,7 +78,7 @@ inline constexpr Section kUnacknowledgedBits{192, 256};
 /// Holding registers that the PLC writes: commands and acknowledgements, and the machine's state.
 inline constexpr Section kWritten{0, 100};
 inline constexpr Section kMachineState{100, 200};
-/// What a write to the machine's state covers at least, so that its values belong together; values
+/// Least extent of a write to the machine's state, so that its values belong together; values
 /// appended later may be left out.
 inline constexpr Section kWholeMachineState{100, 152};
 

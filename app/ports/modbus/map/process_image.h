@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "app/model/command/command.h"
@@ -94,14 +93,19 @@ struct CommandRegisters {
   std::uint16_t last_command = 0;  ///< code of the command acknowledged last; 0: none yet
 };
 
+/// Content of a DINT without a value.
+inline constexpr std::uint32_t kNotValidCode = 0x80000000;
+
+/// Registers of a part's name, two bytes of UTF-8 each, zero-padded.
+inline constexpr int kPartWords = PartName::kMost / 2;
+
 /// State of the machine in registers, as a PLC writes it.
 struct MachineRegisters {
   /// clock_seconds of a controller that sends no clock.
   static constexpr std::uint32_t kNoClock = 0xffffffff;
-  /// A value that is not known, as in every DINT of the map.
-  static constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+  static constexpr auto kUnknown = static_cast<std::int32_t>(kNotValidCode);
 
-  std::array<std::uint16_t, PartName::kMost / 2> part{};  ///< two bytes of UTF-8 each, zero-padded
+  std::array<std::uint16_t, kPartWords> part{};
   std::uint32_t clock_seconds = kNoClock;
   std::uint32_t clock_microseconds = 0;
   std::uint32_t sequence = 0;

@@ -49,9 +49,11 @@ class Families {
     if (!reading.unit.empty()) family.help += ", " + std::string(reading.unit);
     ClientMetric& metric = family.metric.emplace_back();
     if (!component.name.empty()) metric.label.push_back({"name", std::string(component.name)});
-    const bool is_text = !reading.text.empty() && !signals::is_valid(reading.value);
-    if (is_text) metric.label.push_back({"text", std::string(reading.text)});
-    metric.untyped.value = is_text ? 1 : reading.value;
+    metric.untyped.value = reading.value;
+    if (is_text(reading)) {
+      metric.label.push_back({"text", std::string(reading.text)});
+      metric.untyped.value = 1;
+    }
   }
 
   const hal::TimePoint now_;

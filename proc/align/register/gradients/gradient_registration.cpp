@@ -193,7 +193,7 @@ Result<Outcome> best_of(const Scenery& scenery, const Mat3& start, const WorkPro
   return best;
 }
 
-/// What the last round of a fit with the outline tells.
+/// Result of the last round of a fit with the outline.
 struct Refined {
   PlaceFit fit;
   int inliers = 0;

@@ -21,7 +21,7 @@ using tests::Words;
 
 constexpr int kOutside = 3, kNotServed = 2;
 
-/// What the sink hands over.
+/// States that the sink handed over.
 class TakenStates {
  public:
   MachinePath path(MachineSource source = MachineSource::Modbus) {

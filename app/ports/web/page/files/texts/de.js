@@ -348,7 +348,7 @@ export const texts = {
   now: "jetzt",
   fromTo: (low, high) => `${low} bis ${high}`,
   process: {
-    // Of the machine: what is known of each, else "".
+    // Part, layer and track of the machine, as far as they are known.
     machine: ({ part, layer, track }) => [part && `Teil ${part}`, layer !== null && `Lage ${layer}`,
       track !== null && `Spur ${track}`].filter(Boolean).join(" · "),
     keyFigures: "Kennzahlen",

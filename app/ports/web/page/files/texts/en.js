@@ -340,7 +340,7 @@ export const texts = {
   now: "now",
   fromTo: (low, high) => `${low} to ${high}`,
   process: {
-    // Of the machine: what is known of each, else "".
+    // Part, layer and track of the machine, as far as they are known.
     machine: ({ part, layer, track }) => [part && `Part ${part}`, layer !== null && `Layer ${layer}`,
       track !== null && `Track ${track}`].filter(Boolean).join(" · "),
     keyFigures: "Key figures",

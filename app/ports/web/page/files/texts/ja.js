@@ -334,7 +334,7 @@ export const texts = {
   now: "現在",
   fromTo: (low, high) => `${low} ～ ${high}`,
   process: {
-    // Of the machine: what is known of each, else "".
+    // Part, layer and track of the machine, as far as they are known.
     machine: ({ part, layer, track }) => [part && `ワーク ${part}`, layer !== null && `層 ${layer}`,
       track !== null && `軌跡 ${track}`].filter(Boolean).join(" · "),
     keyFigures: "主要な値",
