@@ -14,6 +14,16 @@ using optics::Vec3;
 // Variance of an error in relation to what the parts of the sphere, taken as independent, tell: a
 // thing that the scene does not state shifts edges in several parts. From 20 simulated rooms.
 constexpr double kCommon = 2.4;
+// Resolution at which the error of a pixel shifts an edge as much as what the scene does not state,
+// px per degree.
+constexpr double kSceneBound = 0.2;
+
+/// Weight of an edge, 0 to 1: the inverse of its variance, which is constant where the scene bounds
+/// it and follows the resolution where the picture does. `resolution`: px per degree.
+double edge_weight(double resolution) {
+  const double square = resolution * resolution;
+  return square / (square + kSceneBound * kSceneBound);
+}
 
 PlaceChange along(int unknown, double step) {
   PlaceChange change;
@@ -35,7 +45,7 @@ PlaceAgreement::PlaceAgreement(const std::vector<GradientField::Sample>& samples
                                const PlaceShifts& shifts, const GradientField& field)
     : field_(field) {
   for (const GradientField::Sample& sample : samples) {
-    const double weight = optics::resolution(shifts.ball(), sample.direction);
+    const double weight = edge_weight(optics::resolution(shifts.ball(), sample.direction));
     if (const auto shifted = shifts.at(sample.direction)) {
       edges_.push_back({sample, *shifted, weight});
     }
