@@ -162,6 +162,13 @@ Result<Outcome> follow(const Scenery& scenery, const Mat3& start,
   return outcome;
 }
 
+/// The refusal of a start from which the edges do not lead to one rotation.
+auto refuse_start(const std::string& reason) {
+  return fail(reason +
+              ": start nearer, by marking points or from process light, or state the room's "
+              "geometry");
+}
+
 /// The best of all candidates, if no other is close to it.
 Result<Outcome> best_of(const Scenery& scenery, const Mat3& start, const WorkProgress& progress) {
   const auto field = scenery.camera({start, scenery.outline()}, kCoarse);
@@ -178,16 +185,16 @@ Result<Outcome> best_of(const Scenery& scenery, const Mat3& start, const WorkPro
     if (!wanted) return tl::unexpected(wanted.error());
     if (outcome) outcomes.push_back(*outcome);
   }
-  if (outcomes.empty()) return fail("the cameras' edges agree nowhere near the start");
+  if (outcomes.empty()) return refuse_start("the cameras' edges agree nowhere near the start");
   std::ranges::sort(outcomes, std::greater{}, &Outcome::similarity);
   const Outcome& best = outcomes.front();
   if (best.distinction < kDistinct) {
-    return fail("the cameras' edges agree no better than by accident");
+    return refuse_start("the cameras' edges agree no better than by accident");
   }
   for (const Outcome& other : outcomes) {
     if (angle_between(other.rotation, best.rotation) < radians(kSame)) continue;
     if (other.similarity > kRivalSimilarity * best.similarity) {
-      return fail("two different rotations fit nearly as well");
+      return refuse_start("two different rotations fit nearly as well");
     }
   }
   return best;
@@ -235,11 +242,7 @@ Result<Registration> register_by_gradients(const ReferenceCamera& reference,
       best_of(*scenery, sought.camera.registration, progress).and_then([&](const Outcome& outcome) {
         return refined(*scenery, sought, outcome.rotation);
       });
-  if (!best) {
-    return fail(best.error().message +
-                ": start nearer, by marking points or from process light, or state the room's "
-                "geometry");
-  }
+  if (!best) return tl::unexpected(best.error());
   const Place& place = best->fit.place;
   const auto ball = turned(sought, place.rotation, place.outline);
   if (!ball) return tl::unexpected(ball.error());
