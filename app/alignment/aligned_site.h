@@ -9,6 +9,7 @@
 #include "app/model/alignment/place_settings.h"
 #include "app/model/alignment/watch_settings.h"
 #include "proc/optics/rig.h"
+#include "proc/signals/signals.h"
 
 namespace orbwatch::app {
 
@@ -25,7 +26,12 @@ struct AlignedSite {
   optics::Rig rig;
   std::vector<CalibrationEntry> alignments;  ///< in force in place of the rig file's
   PlaceSettings place;
+  double work_distance = signals::kNotValid;  ///< see work_distance()
 
+  /// Error at the work piece, mm, of directions that are wrong by `direction_sigma` degrees.
+  double work_sigma(double direction_sigma) const {
+    return work_distance * optics::radians(direction_sigma);
+  }
   const optics::RigCamera& rig_camera(std::size_t camera) const { return camera_of(rig, camera); }
   /// The same camera in another state of the rig.
   const optics::RigCamera& camera_of(const optics::Rig& other, std::size_t camera) const {

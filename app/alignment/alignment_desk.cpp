@@ -6,6 +6,7 @@
 
 #include "app/alignment/alignment_state.h"
 #include "app/alignment/drift_correction.h"
+#include "app/alignment/figure_text.h"
 #include "app/log.h"
 
 namespace orbwatch::app {
@@ -215,6 +216,10 @@ Result<optics::BallProjection> AlignmentDesk::proposed_ball(std::size_t camera) 
 /// Returns what the log is to say of it once mutex_ is free: others wait for that.
 std::string AlignmentDesk::add_step(std::size_t camera, AlignmentProposal proposal) {
   std::vector<AlignmentProposal>& steps = desks_[camera].steps;
+  const double work_sigma = site_.work_sigma(proposal.direction_sigma);
+  if (signals::is_valid(work_sigma)) {
+    proposal.quality += ", " + figure_text("at the work piece", work_sigma, "mm");
+  }
   std::string said = "an alignment is proposed: " + proposal.method + ", " + proposal.quality +
                      "; accept_alignment puts it in force, with a restart";
   if (steps.size() == kMostSteps) steps.erase(steps.begin());
@@ -451,6 +456,7 @@ AlignmentReport AlignmentDesk::report(std::size_t camera) const {
     report.proposed->method = step->method;
     report.proposed->quality = step->quality;
     report.proposed->direction_sigma = step->direction_sigma;
+    report.proposed->work_sigma = site_.work_sigma(step->direction_sigma);
   }
   return report;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/alignment/registration.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -61,7 +60,7 @@ Result<FoundRegistration> register_camera(const optics::Rig& rig,
   if (!found) return tl::unexpected(found.error());
   const align::Registration& best = found->registration;
   return registered_alignment(camera, sought, best).map([&](const CameraAlignment& alignment) {
-    const double sigma = std::ranges::max(align::sigmas(best));
+    const double sigma = align::direction_sigma(best);
     return FoundRegistration{
         *found,
         {alignment,

@@ -7,7 +7,9 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "app/alignment/work_distance.h"
 #include "app/daemon/site/assumptions.h"
 #include "app/daemon/site/build.h"
 #include "app/daemon/site/cameras.h"
@@ -40,6 +42,11 @@ AlignedSite aligned_site(const files::Resolved& site) {
     const files::CameraSettings& camera = site.site.cameras[i];
     aligned.cameras.push_back({camera.name, site.rig_cameras[i], camera.watch});
   }
+  std::vector<optics::ViewSpec> measured;
+  for (const pipeline::Recipe& recipe : site.recipes) {
+    for (const auto& view : recipe.views) measured.push_back(view.spec());
+  }
+  aligned.work_distance = work_distance(site.rig, measured);
   return aligned;
 }
 

@@ -48,8 +48,9 @@ constexpr const char* kRegisterNotes =
     "[u, v], radii [rx, ry] in pixels with centres at integers, angle}, residual_deg (rms of what\n"
     "both see), overlap (share of all directions that both show), inliers, sigma_deg [3] about "
     "the\n"
-    "machine's X, Y, Z, covariance [9] in square radians. Sigmas include B's outline where it is\n"
-    "refined: always by gradients. Errors of A's outline, lenses and scene come on top.\n";
+    "machine's X, Y, Z, direction_sigma_deg (rms over all directions, as `orbwatch place` states\n"
+    "it), covariance [9] in square radians. Sigmas include B's outline where it is refined: always\n"
+    "by gradients. Errors of A's outline, lenses and scene come on top.\n";
 
 struct RegisterOptions {
   std::filesystem::path rig;

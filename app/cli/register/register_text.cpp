@@ -28,9 +28,9 @@ std::string register_text(const RegisteredCamera& camera) {
   out << std::fixed << std::setprecision(3) << camera.camera << " on " << camera.reference
       << ", by " << method(camera) << "\nrotation    yaw " << angles.yaw << ", pitch "
       << angles.pitch << ", roll " << angles.roll << " deg\nsigma       " << sigma[0] << ", "
-      << sigma[1] << ", " << sigma[2] << " deg about X, Y, Z\nresidual    " << r.residual
-      << " deg rms, " << r.inliers << " inliers\noverlap     " << std::setprecision(0)
-      << 100 * r.overlap
+      << sigma[1] << ", " << sigma[2] << " deg about X, Y, Z; of directions "
+      << align::direction_sigma(r) << " deg rms\nresidual    " << r.residual << " deg rms, "
+      << r.inliers << " inliers\noverlap     " << std::setprecision(0) << 100 * r.overlap
       << " % of all directions\n\nFor the rig file:\n[camera.outline]\ncentre = ["
       << std::setprecision(3) << r.outline.centre.u << ", " << r.outline.centre.v << "]\nradii = ["
       << r.outline.rx << ", " << r.outline.ry << "]\nangle = " << r.outline.angle
@@ -57,6 +57,7 @@ std::string register_json(const RegisteredCamera& camera) {
   json["overlap"] = r.overlap;
   json["inliers"] = r.inliers;
   json["sigma_deg"] = align::sigmas(r);
+  json["direction_sigma_deg"] = align::direction_sigma(r);
   json["covariance"] = by_rows(r.covariance);
   return json.dump(2) + "\n";
 }

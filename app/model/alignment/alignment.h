@@ -34,6 +34,7 @@ struct CameraAlignmentState {
   std::string method;   ///< method by which it was found
   std::string quality;  ///< text about its errors
   double direction_sigma = signals::kNotValid;  ///< degrees
+  double work_sigma = signals::kNotValid;       ///< error at the work piece, mm
   std::vector<SceneEdge> edges{};               ///< edges visible from the ball's centre
 };
 

@@ -39,6 +39,12 @@ std::array<double, 3> sigmas(const Registration& r) {
           optics::degrees(std::sqrt(r.covariance.row2.z))};
 }
 
+double direction_sigma(const Registration& r) {
+  // A turn t moves the direction d by t x d, which is |t|^2 2/3 squared on average over d.
+  const double trace = r.covariance.row0.x + r.covariance.row1.y + r.covariance.row2.z;
+  return optics::degrees(std::sqrt(2 * trace / 3));
+}
+
 Mat3 registration_of(const Mat3& pose_rotation) {
   return transposed(Mat3{-pose_rotation.row0, -pose_rotation.row2, -pose_rotation.row1});
 }

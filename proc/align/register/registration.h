@@ -48,6 +48,9 @@ bool states_scene(const optics::Rig& rig);
 /// The standard deviations about the reference frame's axes, degrees.
 std::array<double, 3> sigmas(const Registration& registration);
 
+/// Degrees: the rms error of a direction that the camera shows, over all directions. Reentrant.
+double direction_sigma(const Registration& registration);
+
 /// The camera stated by outline and registration instead of the rig's pose: the same place,
 /// expressed as a turn about the ball. Reentrant. Error: those of optics::ball_projection.
 Result<optics::RigCamera> by_outline(const optics::Rig& rig, const optics::RigCamera& camera);

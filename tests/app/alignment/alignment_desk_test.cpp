@@ -26,7 +26,7 @@ class OnePicture : public WatchedCameras {
 
   bool is_watched(std::size_t /*camera*/) const override { return true; }
   hal::Fault fault(std::size_t /*camera*/) const override { return hal::Fault::None; }
-  std::optional<align::DriftState> drift(std::size_t /*camera*/) const override { return {}; }
+  std::optional<align::DriftState> drift(std::size_t /*camera*/) const override { return drifted; }
   void ask(std::size_t /*camera*/, std::function<void(RecordedPicture)> reader) override {
     reader(copied(picture_of_mat(picture_), {}));
   }
@@ -76,6 +76,7 @@ class OnePicture : public WatchedCameras {
   }
 
   bool is_deaf = false;  ///< set before the first call
+  std::optional<align::DriftState> drifted;
 
  private:
   cv::Mat picture_;
@@ -206,6 +207,22 @@ TEST_F(AlignmentDeskTest, ForgetsOnePointByItsCoordinates) {
   EXPECT_EQ(points[1].point.x, 30);
   EXPECT_EQ(desk->forget_point(0, {20.25, 2, 3}), CommandResult::NotPossible);
   EXPECT_EQ(desk->forget_point(1, {10.5, 2, 3}), CommandResult::ArgumentOutOfRange);
+}
+
+TEST_F(AlignmentDeskTest, StatesTheErrorAtTheWorkPiece) {
+  site.work_distance = 400;
+  watch.drifted.emplace();
+  watch.drifted->level = align::DriftLevel::Warning;
+  watch.drifted->outline = desk->report(0).in_force->outline;
+  watch.drifted->direction_sigma = optics::degrees(0.005);
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  const AlignmentReport report = report_after_work();
+  ASSERT_TRUE(report.proposed) << report.refusal;
+  EXPECT_NEAR(report.proposed->work_sigma, 2, 1e-9);
+  EXPECT_TRUE(report.proposed->quality.ends_with("sigma 0.29 deg, at the work piece 2.00 mm"))
+      << report.proposed->quality;
+  ASSERT_EQ(desk->accept(0), CommandResult::Done);
+  EXPECT_EQ(accepted.entries.at(0).quality, report.proposed->quality);
 }
 
 TEST_F(AlignmentDeskTest, PutsAStatedAlignmentInForceByTheRecordAndARestart) {

@@ -108,6 +108,8 @@ TEST_F(Register, SaysHowOneCameraStandsToTheOther) {
   EXPECT_GT(json["overlap"], 0.5);
   EXPECT_GT(json["inliers"], 15);
   EXPECT_EQ(json["sigma_deg"].size(), 3U);
+  EXPECT_GT(json["direction_sigma_deg"], 0);
+  EXPECT_LT(json["direction_sigma_deg"], 1);
   EXPECT_EQ(json["covariance"].size(), 9U);
   ASSERT_EQ(run({"register", "--help"}), 0);
   expect_documented(json, said);

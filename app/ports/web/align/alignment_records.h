@@ -48,6 +48,10 @@ void visit(Visitor& v, CameraAlignmentState& state) {
   v.required("method", state.method, "Method by which it was found");
   v.required("quality", state.quality, "Its errors in words");
   v.required("direction_sigma", state.direction_sigma, "Standard error of directions", "deg");
+  v.required("work_sigma", state.work_sigma,
+             "Standard error at the work piece, which is the stated scene in the middle of the "
+             "measured view; null: not known",
+             "mm");
   v.required("edges", state.edges, "Edges of the scene that are visible from the ball's centre");
 }
 

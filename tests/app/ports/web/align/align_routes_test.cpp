@@ -35,6 +35,7 @@ class Source : public AlignmentSource {
     report.proposed = report.in_force;
     report.proposed->method = "detect";
     report.proposed->direction_sigma = 0.2;
+    report.proposed->work_sigma = 1.5;
     report.proposed->edges = {{{5, 6, 7}, {8, 9, 10}, {{1, 2}, {3, 4}}}};
     report.points = {{{1, 2, 3}, {4, 5}, optics::Vec2{0.5, -0.25}, false}, {{7, 8, 9}, {6, 5}}};
     return report;
@@ -104,6 +105,7 @@ TEST_F(ServedAlignment, SaysWhatIsInForceAndWhatIsProposed) {
   EXPECT_EQ(first["in_force"]["direction_sigma"], nullptr);
   EXPECT_EQ(first["proposed"]["method"], "detect");
   EXPECT_EQ(first["proposed"]["direction_sigma"], 0.2);
+  EXPECT_EQ(first["proposed"]["work_sigma"], 1.5);
   EXPECT_EQ(first["proposed"]["edges"],
             json::parse(R"([{"from": [5.0, 6.0, 7.0], "to": [8.0, 9.0, 10.0],
                             "pixels": [[1.0, 2.0], [3.0, 4.0]]}])"));
