@@ -49,8 +49,8 @@ constexpr const char* kRegisterNotes =
     "both see), overlap (share of all directions that both show), inliers, sigma_deg [3] about "
     "the\n"
     "machine's X, Y, Z, direction_sigma_deg (rms over all directions, as `orbwatch place` states\n"
-    "it), covariance [9] in square radians. Sigmas include B's outline where it is refined: always\n"
-    "by gradients. Errors of A's outline, lenses and scene come on top.\n";
+    "it), covariance [9] in square radians. Sigmas include B's outline where it is\n"
+    "refined: always by gradients. Errors of A's outline, lenses and scene come on top.\n";
 
 struct RegisterOptions {
   std::filesystem::path rig;
