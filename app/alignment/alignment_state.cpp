@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/alignment/alignment_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -48,6 +49,19 @@ void add_edge(const optics::BallProjection& ball, const Vec3& from, const Vec3& 
   end_it();
 }
 
+/// Adds an end of an edge, in ball radii, unless another edge has added it.
+void add_corner(const optics::BallProjection& ball, const Vec3& end,
+                std::vector<SceneCorner>& corners) {
+  constexpr double kSame = 1e-6;  // ball radii
+  const double radius = ball.ball().radius;
+  const Vec3 point = ball.ball().centre + end * radius;
+  const auto is_it = [&](const SceneCorner& one) {
+    return norm(one.point - point) < kSame * radius;
+  };
+  if (std::ranges::any_of(corners, is_it)) return;
+  if (const auto pixel = seen_at(ball, end)) corners.push_back({point, *pixel});
+}
+
 }  // namespace
 
 Result<CameraAlignmentState> alignment_state(const optics::Rig& rig,
@@ -63,7 +77,11 @@ Result<CameraAlignmentState> alignment_state(const optics::Rig& rig,
     state.position =
         ball->ball().centre + ball->facing() * (ball->distance() * ball->ball().radius);
   }
-  for (const auto& [from, to] : ball->proxy().edges()) add_edge(*ball, from, to, state.edges);
+  for (const auto& [from, to] : ball->proxy().edges()) {
+    add_edge(*ball, from, to, state.edges);
+    add_corner(*ball, from, state.corners);
+    add_corner(*ball, to, state.corners);
+  }
   return state;
 }
 

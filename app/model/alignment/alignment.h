@@ -25,6 +25,12 @@ struct SceneEdge {
   std::vector<optics::Vec2> pixels;  ///< from end to end, in the camera's picture
 };
 
+/// Reflection of a corner of the scene in a camera's ball.
+struct SceneCorner {
+  optics::Vec3 point;  ///< machine frame, mm
+  optics::Vec2 pixel;  ///< in the camera's picture
+};
+
 /// Alignment of one camera.
 struct CameraAlignmentState {
   optics::Outline outline;               ///< the ball's outline, px
@@ -36,6 +42,7 @@ struct CameraAlignmentState {
   double direction_sigma = signals::kNotValid;  ///< degrees
   double work_sigma = signals::kNotValid;       ///< error at the work piece, mm
   std::vector<SceneEdge> edges{};               ///< edges visible from the ball's centre
+  std::vector<SceneCorner> corners{};           ///< ends of edges that are, each once
 };
 
 /// A known point for camera placement.

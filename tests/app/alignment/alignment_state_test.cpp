@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -61,6 +62,31 @@ TEST(AlignmentState, EdgesOfTheSceneAreWhereTheBallShowsThem) {
     }
   }
   EXPECT_EQ(ends, 3);
+}
+
+TEST(AlignmentState, OffersEachVisibleCornerOnce) {
+  optics::Rig rig = posed_rig();
+  rig.scene.room = optics::Scene::Room::Box;
+  rig.scene.walls = {{-600, -900, 0}, {600, 500, 800}};
+  rig.scene.obstacles = {{{-100, -200, 50}, {340, 320, 200}}};
+  const auto state = alignment_state(rig, rig.cameras.front());
+  const auto ball = optics::ball_projection(rig, rig.cameras.front());
+  ASSERT_TRUE(state && ball);
+  int of_top = 0, of_room = 0;
+  for (const SceneCorner& corner : state->corners) {
+    const optics::Vec3& p = corner.point;
+    EXPECT_EQ(std::ranges::count_if(state->corners,
+                                    [&](const auto& other) { return norm(other.point - p) < 1; }),
+              1);
+    of_top += std::abs(p.z - 200) < 1e-6 ? 1 : 0;
+    of_room += std::abs(std::abs(p.x) - 600) < 1e-6 ? 1 : 0;
+    const auto pixel = ball->pixel(normalized(p - rig.ball.centre));
+    ASSERT_TRUE(pixel);
+    EXPECT_NEAR(std::hypot(pixel->u - corner.pixel.u, pixel->v - corner.pixel.v), 0, 1e-3);
+  }
+  EXPECT_EQ(of_top, 4) << "and none of its bottom, which it hides";
+  EXPECT_GE(of_room, 6) << "but for those in the blind cone";
+  EXPECT_EQ(state->corners.size(), static_cast<std::size_t>(of_top + of_room));
 }
 
 /// From above nothing of the floor below the table is seen.

@@ -39,6 +39,12 @@ void visit(Visitor& v, SceneEdge& edge) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, SceneCorner& corner) {
+  v.required("point", corner.point, "Corner, machine frame", "mm");
+  v.required("pixel", corner.pixel, "Corner in the camera's picture", "px");
+}
+
+template <class Visitor>
 void visit(Visitor& v, CameraAlignmentState& state) {
   v.required("outline", state.outline, "The ball's outline in the picture");
   v.required("rotation", state.rotation, "Registration to the machine frame");
@@ -53,6 +59,7 @@ void visit(Visitor& v, CameraAlignmentState& state) {
              "measured view; null: not known",
              "mm");
   v.required("edges", state.edges, "Edges of the scene that are visible from the ball's centre");
+  v.required("corners", state.corners, "Ends of edges that are visible from there, each once");
 }
 
 template <class Visitor>

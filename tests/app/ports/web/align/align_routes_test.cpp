@@ -37,6 +37,7 @@ class Source : public AlignmentSource {
     report.proposed->direction_sigma = 0.2;
     report.proposed->work_sigma = 1.5;
     report.proposed->edges = {{{5, 6, 7}, {8, 9, 10}, {{1, 2}, {3, 4}}}};
+    report.proposed->corners = {{{5, 6, 7}, {1, 2}}};
     report.points = {{{1, 2, 3}, {4, 5}, optics::Vec2{0.5, -0.25}, false}, {{7, 8, 9}, {6, 5}}};
     return report;
   }
@@ -109,6 +110,8 @@ TEST_F(ServedAlignment, SaysWhatIsInForceAndWhatIsProposed) {
   EXPECT_EQ(first["proposed"]["edges"],
             json::parse(R"([{"from": [5.0, 6.0, 7.0], "to": [8.0, 9.0, 10.0],
                             "pixels": [[1.0, 2.0], [3.0, 4.0]]}])"));
+  EXPECT_EQ(first["proposed"]["corners"],
+            json::parse(R"([{"point": [5.0, 6.0, 7.0], "pixel": [1.0, 2.0]}])"));
   EXPECT_EQ(first["points"][0]["point"], json::parse("[1.0, 2.0, 3.0]"));
   EXPECT_EQ(first["points"][0]["residual"], json::parse("[0.5, -0.25]"));
   EXPECT_EQ(first["points"][1]["residual"], nullptr);

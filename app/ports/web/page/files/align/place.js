@@ -5,9 +5,13 @@ import { texts } from "../texts.js";
 
 const kCoordinates = ["x", "y", "z"];
 
+const kOffered = 3;  // corners beside a pixel
+
 function number(label, name) {
   return field(label, { type: "number", name, step: "any" });
 }
+
+const rounded = (numbers, digits) => numbers.map((one) => one.toFixed(digits)).join(", ");
 
 function isOnScreen(shown) {
   const { top, bottom } = shown.getBoundingClientRect();
@@ -15,6 +19,8 @@ function isOnScreen(shown) {
 }
 
 export class Place {
+  #corners = [];  // of the scene, by the alignment that is shown
+
   // `give(command, values)`: see Align. `onMark(pixel)`: the pixel in the form has changed; null: there is none.
   constructor(give, onMark) {
     Object.assign(this, { give, onMark });
@@ -25,11 +31,13 @@ export class Place {
     this.pixel.addEventListener("input", () => this.#mark());
     const light = element("button", { type: "button" }, texts.place.light);
     light.addEventListener("click", () => this.#markLight());
+    this.offers = element("p", { className: "buttons" });
     this.run = commandButton(texts.place.run, "place_camera", give);
     this.forget = commandButton(texts.place.forget, "forget_points", give);
     this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, "", ""],
       texts.place.points);
-    this.root = element("section", { id: "place" }, element("p", {}, texts.place.help), this.pixel, this.points.root,
+    this.root = element("section", { id: "place" }, element("p", {}, texts.place.help), this.pixel,
+      this.offers, this.points.root,
       element("p", { className: "buttons" }, light, this.run, this.forget));
   }
 
@@ -47,7 +55,22 @@ export class Place {
 
   #mark() {
     const { u, v } = this.pixel.elements;
-    this.onMark(u.value && v.value ? [Number(u.value), Number(v.value)] : null);
+    const pixel = u.value && v.value ? [Number(u.value), Number(v.value)] : null;
+    this.#offer(pixel);
+    this.onMark(pixel);
+  }
+
+  // Offers the coordinates of the scene's corners that the picture shows nearest to the pixel.
+  #offer(at) {
+    const distance = ({ pixel: [u, v] }) => Math.hypot(u - at[0], v - at[1]);
+    const nearest = at ? [...this.#corners].sort((a, b) => distance(a) - distance(b)).slice(0, kOffered) : [];
+    this.offers.replaceChildren(...nearest.map(({ point }) => {
+      const button = element("button", { type: "button" }, texts.place.corner(rounded(point, 1)));
+      button.addEventListener("click", () => kCoordinates.forEach((name, k) => {
+        this.pixel.elements[name].value = Number(point[k].toFixed(2));
+      }));
+      return button;
+    }));
   }
 
   forgetPixel() {
@@ -70,7 +93,8 @@ export class Place {
     if (isOnScreen(this.pixel.elements.x)) this.pixel.elements.x.focus({ preventScroll: true });
   }
 
-  show({ points, is_watched: isWatched }, isWorking) {
+  show({ points, is_watched: isWatched, proposed, in_force: inForce }, isWorking) {
+    this.#corners = (proposed ?? inForce)?.corners ?? [];
     this.run.disabled = isWorking || !isWatched;
     this.forget.disabled = isWorking || points.length === 0;
     while (this.points.body.rows.length > points.length) this.points.body.lastChild.remove();
@@ -88,7 +112,6 @@ export class Place {
   #showRow({ point, pixel, residual, is_outlier: isOutlier }, index, isWorking) {
     const row = this.points.body.rows[index] ?? this.#addRow();
     row.point = Object.fromEntries(kCoordinates.map((name, k) => [name, point[k]]));
-    const rounded = (numbers, digits) => numbers.map((one) => one.toFixed(digits)).join(", ");
     const cells = [rounded(point, 2), rounded(pixel, 1), residual ? rounded(residual, 2) : "–",
                    isOutlier ? texts.place.outlier : ""];
     cells.forEach((text, column) => setText(row.cells[column], text));

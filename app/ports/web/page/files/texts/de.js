@@ -270,6 +270,7 @@ export const texts = {
     x: "In der Maschine: X, mm",
     y: "Y, mm",
     z: "Z, mm",
+    corner: (coordinates) => `Ecke bei ${coordinates}`,
     add: "Punkt hinzufügen",
     light: "Licht des Werkzeugs bei X, Y, Z hinzufügen",
     run: "Ort berechnen",

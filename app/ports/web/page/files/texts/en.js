@@ -262,6 +262,7 @@ export const texts = {
     x: "In the machine: X, mm",
     y: "Y, mm",
     z: "Z, mm",
+    corner: (coordinates) => `Corner at ${coordinates}`,
     add: "Add the point",
     light: "Add the tool's light at X, Y, Z",
     run: "Place",

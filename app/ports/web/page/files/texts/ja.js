@@ -257,6 +257,7 @@ export const texts = {
     x: "機械内: X、mm",
     y: "Y、mm",
     z: "Z、mm",
+    corner: (coordinates) => `角 ${coordinates}`,
     add: "点を追加",
     light: "X、Y、Z にある工具の光を追加",
     run: "位置を計算",
