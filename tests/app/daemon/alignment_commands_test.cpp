@@ -294,27 +294,19 @@ class PlacementCommands : public AlignmentCommands {
   }
   /// Moves the lamp there and marks it; again where a busy machine delivered no picture in time.
   bool mark(Subprocess& daemon, const optics::Vec3& point) {
+    const auto points = read("camera_0_marked_points"), frames = read("camera_0_frames");
+    // The figures may still be those before the command: marking a point twice replaces it.
+    const auto is_marked = [&] { return read("camera_0_marked_points") == points + 1; };
+    const auto is_refused = [&] {
+      return read("camera_0_proposal") == static_cast<int>(ProposalState::Refused);
+    };
     show_lamp(point);
-    return eventually(daemon, [&] { return is_marked(daemon, point); });
-  }
-  /// Marks the lamp once; returns whether it became a point.
-  bool is_marked(Subprocess& daemon, const optics::Vec3& point) {
-    const auto frames = read("camera_0_frames");
-    const auto points = read("camera_0_marked_points");
     return eventually(daemon, [&] { return read("camera_0_frames") > frames + 2; }) &&
-           command(daemon, CommandCode::MarkPoint, at(point)) == CommandResult::Done &&
-           eventually(daemon,
-                      [&] {
-                        return read("camera_0_proposal") !=
-                               static_cast<int>(ProposalState::Working);
-                      }) &&
-           eventually(daemon,
-                      [&] {
-                        return read("camera_0_marked_points") == points + 1 ||
-                               read("camera_0_proposal") ==
-                                   static_cast<int>(ProposalState::Refused);
-                      }) &&
-           read("camera_0_marked_points") == points + 1;
+           eventually(daemon, [&] {
+             const auto given = command(daemon, CommandCode::MarkPoint, at(point));
+             return (given == CommandResult::Done || given == CommandResult::Busy) &&
+                    eventually(daemon, [&] { return is_marked() || is_refused(); }) && is_marked();
+           });
   }
 
   MirroredRig machine;
