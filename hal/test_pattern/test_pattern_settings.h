@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
+#include "hal/pixel_format_words.h"
 #include "proc/image/pixel_format.h"
 #include "proc/settings/settings.h"
 
@@ -34,15 +34,6 @@ struct TestPatternSettings {
 };
 
 inline constexpr double kTestPatternRate = 30;
-
-/// Names of all formats.
-inline constexpr auto kPixelFormatWords = [] {
-  std::array<Word<PixelFormat>, kPixelFormats.size()> words{};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    words[i] = {kPixelFormats[i].name, kPixelFormats[i].format};
-  }
-  return words;
-}();
 
 /// Visits all settings except those from the camera's context.
 template <class Visitor>
