@@ -127,9 +127,9 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
   all.absent_ = plan->absent;
   for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
   all.pipeline_.emplace(std::move(*plan));
-  all.receivers_.emplace(Receivers{*all.pipeline_, *all.lines_,
-                                   all.interfaces_->find<SnapshotSink>(), *all.watch_,
-                                   *all.alignment_, std::move(restart)});
+  all.receivers_.emplace(Receivers{
+      *all.pipeline_, *all.lines_, all.interfaces_->find<SnapshotSink>(),
+      all.interfaces_->find<RecorderSink>(), *all.watch_, *all.alignment_, std::move(restart)});
   return made;
 }
 

@@ -18,6 +18,10 @@ CommandResult snapshot(const Receivers& receivers, std::size_t view) {
   return receivers.snapshots->request(view);
 }
 
+CommandResult record_event(RecorderSink* recorder) {
+  return recorder && recorder->request_event() ? CommandResult::Done : CommandResult::NotPossible;
+}
+
 CommandResult learn_clean_ball(CameraWatch& watch, std::size_t camera) {
   if (!watch.is_watched(camera)) return CommandResult::ArgumentOutOfRange;
   watch.learn_clean_ball(camera);
@@ -104,6 +108,8 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
                                               {arguments[1], arguments[2], arguments[3]});
     case CommandCode::CancelAlignment:
       return receivers.alignment.cancel(command.integer(0));
+    case CommandCode::RecordEvent:
+      return record_event(receivers.recorder);
   }
   return CommandResult::UnknownCommand;
 }

@@ -6,6 +6,7 @@
 #include "app/model/command/restart.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
+#include "app/ports/recorder/recorder_sink.h"
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/watch/camera_watch.h"
 
@@ -16,6 +17,7 @@ struct Receivers {
   pipeline::Pipeline& pipeline;
   Lines& lines;
   SnapshotSink* snapshots;  ///< null: no folder for them is configured
+  RecorderSink* recorder;   ///< null: nothing is recorded
   CameraWatch& watch;
   AlignmentDesk& alignment;
   Restart restart;

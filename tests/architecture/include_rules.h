@@ -93,9 +93,9 @@ inline const std::vector<Rule> kRules{
     {"app/ports/snapshot", port("app/ports/snapshot"), {"tl/expected"}},
     // Definitions of messages are texts, not code of the other port.
     {"app/ports/recorder",
-     {"proc", "hal", "app/model", "app/log.h", "app/ports/recorder",
+     {"proc", "hal", "app/model", "app/log.h", "app/pictures", "app/ports/recorder",
       "app/ports/dds/generated/message_schemas.h"},
-     {"tl/expected"}},
+     {"nlohmann/", "tl/expected"}},
     {"app/cli", {"proc", "hal", "app"}, {"nlohmann/", "opencv2/", "dds/", "tl/expected"}},
     {"app/ports/dds", port("app/ports/dds"), {"dds/", "tl/expected"}},
     {"app/ports/dds/generated", {"app/ports/dds/generated", "dds"}, {}},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/daemon/site/published.h"
+#include "app/daemon/site/recorded_cameras.h"
 #include "app/model/fleet/appliance_notice.h"
 #include "app/model/fleet/fleet.h"
 #include "app/ports/web/web_context.h"
@@ -16,10 +17,10 @@ namespace orbwatch::app::daemon {
 namespace {
 
 /// Parts that sinks are made with; each sink takes those that its make_sink() names.
-using SinkParts =
-    std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>, CommandPath,
-               MachinePath, RecordedTexts, std::shared_ptr<hal::SharedThreads>,
-               std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
+using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>,
+                             CommandPath, MachinePath, RecordedTexts, std::vector<RecordedCamera>,
+                             std::shared_ptr<hal::SharedThreads>, std::shared_ptr<Fleet>,
+                             ApplianceIdentity, PageContext>;
 
 /// Null: the settings do not enable it.
 template <class Settings, class... Parts>
@@ -92,6 +93,7 @@ Interfaces::Interfaces(const files::Resolved& site, const SitePlan& plan, Comman
                         std::move(commands),
                         std::move(machine),
                         std::move(texts),
+                        recorded_cameras(site, plan.formats),
                         std::move(background),
                         make_fleet(sinks),
                         std::move(identity),

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/daemon/site/recorded_cameras.h"
 #include "app/daemon/site/view_memory.h"
 #include "app/pipeline/measurement/compiled_recipe.h"
 #include "hal/host.h"
@@ -63,6 +64,17 @@ Result<> check_ports(const files::Resolved& site) {
   return {};
 }
 
+Result<> check_recordings(const files::Resolved& site) {
+  const auto cameras = recorded_cameras(site, expected_formats(site));
+  Result<> checked;
+  files::for_each_sink(site.site.sinks, [&](const auto& settings) {
+    if constexpr (requires { check_recorded(settings, cameras); }) {
+      if (checked) checked = check_recorded(settings, cameras);
+    }
+  });
+  return checked;
+}
+
 Result<SitePlan> checked_plan(const files::Resolved& site, Dates dates) {
   if (auto fits = check_view_memory(site); !fits) return tl::unexpected(fits.error());
   auto plan = SitePlan::make(site, expected_formats(site));
@@ -74,6 +86,7 @@ Result<SitePlan> checked_plan(const files::Resolved& site, Dates dates) {
   return hal::check(site.site.threads)
       .and_then([&] { return check_ports(site); })
       .and_then([&] { return check_keys(site, dates); })
+      .and_then([&] { return check_recordings(site); })
       .map([&] { return std::move(*plan); });
 }
 

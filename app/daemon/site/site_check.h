@@ -20,6 +20,10 @@ Result<> check_ports(const files::Resolved& site);
 /// Checks keys and certificates of the enabled interfaces, as far as files are named.
 Result<> check_keys(const files::Resolved& site, Dates dates);
 
+/// Checks that what the enabled interfaces record fits their memory, as far as the cameras' formats
+/// are known.
+Result<> check_recordings(const files::Resolved& site);
+
 /// Plans the site for the formats that are expected, and checks what build() would refuse, ports
 /// and keys. Opens no camera and no line; compiles no view and allocates no picture, so that it may
 /// run beside the site.

@@ -149,7 +149,9 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
     coordinate_argument("z", "up"))                                                                \
   X(CancelAlignment, 31, "cancel_alignment", Integrator,                                           \
     "Cancels the alignment or point being computed for a camera; nothing of it is kept",           \
-    kCameraArgument)
+    kCameraArgument)                                                                               \
+  X(RecordEvent, 32, "record_event", Operator,                                                     \
+    "Records an event with pictures from before and after this moment", kNoArgument)
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/recorder/recorder_sink.h"
 
-#include <cerrno>
 #include <utility>
 
 #include "app/log.h"
+#include "app/ports/recorder/events/ring_size.h"
 
 namespace orbwatch::app {
 namespace {
 
-using hal::mcap::FileResult;
 using recorder::Utc;
 
 constexpr std::chrono::seconds kFlushPeriod{1};
@@ -18,11 +17,18 @@ constexpr std::chrono::seconds kLongestSilence{10};
 
 }  // namespace
 
-RecorderSink::RecorderSink(RecorderSettings settings, StatusNames names, RecordedTexts texts)
+RecorderSink::RecorderSink(RecorderSettings settings, StatusNames names, RecordedTexts texts,
+                           std::vector<RecordedCamera> cameras)
     : settings_(std::move(settings)),
       names_(std::move(names)),
       texts_(std::move(texts)),
-      folder_(settings_) {}
+      folder_(settings_) {
+  if (!settings_.events) return;
+  if (const auto fits = recorder::check_ring(*settings_.events, cameras); !fits) {
+    log_line(LogLevel::Warning, "recorder: events may lack pictures: " + fits.error().message);
+  }
+  pictures_.emplace(settings_, std::move(cameras), names_, texts_, counters_);
+}
 
 Result<> RecorderSink::start() {
   if (thread_.is_running()) return {};
@@ -38,21 +44,36 @@ bool RecorderSink::works() const {
   return !has_fault_ && !is_silent;
 }
 
+void RecorderSink::accept_frames(const hal::FrameSet& set) {
+  if (pictures_) pictures_->accept_frames(set);
+}
+
 void RecorderSink::accept(const Status& status) {
-  if (status.frame_set == last_set_) return;
-  last_set_ = status.frame_set;
-  states_.put({status, hal::to_utc(status.stamp)});
+  if (pictures_) pictures_->accept(status);
+  if (status.frame_set != last_set_) {
+    last_set_ = status.frame_set;
+    states_.put({status, hal::to_utc(status.stamp)});
+  }
   thread_.wake();
 }
 
 void RecorderSink::accept_event(const AlarmNotice& notice) {
+  if (pictures_) pictures_->accept_event(notice);
   events_.put({notice, hal::to_utc(notice.stamp)});
   thread_.wake();
+}
+
+bool RecorderSink::request_event() {
+  if (pictures_) pictures_->request();
+  return pictures_.has_value();
 }
 
 void RecorderSink::run() {
   while (thread_.wait_until(next_wake())) record_all();
   record_all();
+  if (pictures_) {
+    if (const auto ended = pictures_->end(); !ended) give_up(ended.error().message);
+  }
   end();
 }
 
@@ -62,42 +83,57 @@ hal::TimePoint RecorderSink::next_wake() const {
 }
 
 void RecorderSink::record_all() {
-  const hal::TimePoint now = hal::Clock::now();
-  busy_since_ = now;
-  if (!file_ && now >= next_try_) {
-    if (const auto begun = begin(); !begun) give_up(begun.error().message);
+  bool is_more = true;
+  while (is_more) {
+    const hal::TimePoint now = hal::Clock::now();
+    busy_since_ = now;
+    if (!file_ && now >= next_try_) {
+      if (const auto begun = begin(); !begun) give_up(begun.error().message);
+    }
+    const auto recorded = record_round(now);
+    if (!recorded) give_up(recorded.error().message);
+    is_more = recorded.value_or(false);
+    if (file_ && now >= next_file_) end();
   }
-  const bool is_due = file_ && now >= next_flush_;
-  auto done = record();
-  if (done && is_due) done = flush(now);
-  if (!done) give_up(done.error().message);
-  if (file_ && now >= next_file_) end();
   busy_since_ = hal::TimePoint{};
 }
 
-/// Writes what waits; without a file it is lost.
-FileResult<> RecorderSink::record() {
+/// Writes what waits, of pictures one for each event. True: more of them wait. Without a disk they
+/// are lost.
+Result<bool> RecorderSink::record_round(hal::TimePoint now) {
+  if (!file_ && pictures_) pictures_->give_up();
+  Result<> done = file_ && pictures_ ? pictures_->begin_round() : Result<>();
+  done = done.and_then([this] { return record(); });
+  Result<bool> is_more = done.map([] { return false; });
+  if (done && file_ && pictures_) is_more = pictures_->end_round();
+  if (!is_more || !file_ || now < next_flush_) return is_more;
+  return flush(now).map([&] { return *is_more; });
+}
+
+/// Writes the events and states that wait.
+Result<> RecorderSink::record() {
   while (const auto event = events_.try_take()) {
-    if (!file_) {
-      ++counters_.lost;
-      continue;
-    }
-    ++unflushed_events_;
-    auto written = file_->write_event(event->notice, names_, event->stamp);
-    if (!written) return written;
+    auto kept =
+        keep(recorder::event_message(event->notice, names_, event->stamp), unflushed_events_);
+    if (!kept) return kept;
   }
   while (const auto state = states_.try_take()) {
-    if (!file_) {
-      ++counters_.lost;
-      continue;
-    }
     // Ages count until the exposure, so that they do not depend on when this is written.
     const StatusReport report{state->status, names_, state->status.stamp, state->stamp};
-    ++unflushed_states_;
-    auto written = file_->write_state(report);
-    if (!written) return written;
+    if (auto kept = keep(recorder::state_message(report), unflushed_states_); !kept) return kept;
   }
   return {};
+}
+
+/// Writes a message into the log, without which it is lost there, and into the events.
+Result<> RecorderSink::keep(recorder::LogMessage message, std::uint64_t& unflushed) {
+  if (file_) {
+    ++unflushed;
+    if (auto written = file_->write(message); !written) return fail(written.error().message);
+  } else {
+    ++counters_.lost;
+  }
+  return pictures_ ? pictures_->keep(std::move(message)) : Result<>();
 }
 
 Result<> RecorderSink::begin() {
@@ -124,16 +160,16 @@ Result<> RecorderSink::begin() {
   return {};
 }
 
-FileResult<> RecorderSink::flush(hal::TimePoint now) {
+Result<> RecorderSink::flush(hal::TimePoint now) {
   next_flush_ = now + kFlushPeriod;
   auto flushed = file_->flush();
   counters_.bytes += file_->size() - std::exchange(known_size_, file_->size());
-  if (!flushed) return flushed;
+  if (!flushed) return fail(flushed.error().message);
   count_flushed();
-  const auto removed = folder_.make_room(file_->path());
-  if (!removed) return tl::unexpected(hal::mcap::FileError{ENOSPC, removed.error().message});
-  counters_.removed += static_cast<std::uint64_t>(*removed);
-  return {};
+  if (auto written = pictures_ ? pictures_->flush() : Result<>(); !written) return written;
+  return folder_.make_room(file_->path()).map([this](int removed) {
+    counters_.removed += static_cast<std::uint64_t>(removed);
+  });
 }
 
 void RecorderSink::end() {
@@ -154,6 +190,7 @@ void RecorderSink::count_flushed() {
 /// it.
 void RecorderSink::give_up(const std::string& reason) {
   file_.reset();
+  if (pictures_) pictures_->give_up();
   counters_.lost += std::exchange(unflushed_states_, 0) + std::exchange(unflushed_events_, 0);
   is_prepared_ = false;
   has_fault_ = true;
@@ -166,6 +203,7 @@ void RecorderSink::give_up(const std::string& reason) {
 recorder::RecorderStatistics RecorderSink::statistics() const {
   recorder::RecorderStatistics statistics = counters_.read();
   statistics.lost += states_.drops() + events_.drops();
+  if (pictures_) pictures_->add_figures(statistics);
   statistics.fault = !works();
   const std::chrono::duration<double, std::ratio<86400>> days = hal::Clock::now() - started_;
   statistics.per_day = static_cast<double>(statistics.bytes) / (1 << 20) / days.count();
@@ -178,10 +216,16 @@ std::vector<InterfaceMetric> RecorderSink::metrics() const {
   return all;
 }
 
+Result<> check_recorded(const RecorderSettings& settings,
+                        const std::vector<RecordedCamera>& cameras) {
+  return settings.events ? recorder::check_ring(*settings.events, cameras) : Result<>();
+}
+
 std::unique_ptr<Sink> make_sink(const RecorderSettings& settings, const StatusNames& names,
-                                const RecordedTexts& texts) {
+                                const RecordedTexts& texts,
+                                const std::vector<RecordedCamera>& cameras) {
   if (settings.folder.empty()) return nullptr;
-  return std::make_unique<RecorderSink>(settings, names, texts);
+  return std::make_unique<RecorderSink>(settings, names, texts, cameras);
 }
 
 }  // namespace orbwatch::app

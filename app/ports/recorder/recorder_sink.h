@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/model/sink/sink.h"
+#include "app/ports/recorder/events/event_recorder.h"
 #include "app/ports/recorder/log_file.h"
 #include "app/ports/recorder/recorder_settings.h"
 #include "app/ports/recorder/recorder_statistics.h"
@@ -18,13 +19,15 @@
 namespace orbwatch::app {
 
 /// Records signals, alarms and machine state of every frame set into files of an hour, on a thread
-/// of its own: no frame set waits for the disk, and every loss is counted. A disk that is full,
-/// read-only, gone or silent for 10 s is a fault; recording goes on when the disk does. A power cut
-/// costs at most the last second. Thread rule: as Sink; statistics() on any thread.
+/// of its own, and events with pictures: no frame set waits for the disk, and every loss is
+/// counted. A disk that is full, read-only, gone or silent for 10 s is a fault; recording goes on
+/// when the disk does. A power cut costs at most the last second. Thread rule: as Sink;
+/// request_event() and statistics() on any thread.
 class RecorderSink final : public Sink {
  public:
-  /// `texts` are attached to every recording.
-  RecorderSink(RecorderSettings settings, StatusNames names, RecordedTexts texts);
+  /// `texts` are attached to every recording. `cameras` by index, for events.
+  RecorderSink(RecorderSettings settings, StatusNames names, RecordedTexts texts,
+               std::vector<RecordedCamera> cameras = {});
   ~RecorderSink() override { stop(); }
 
   /// Starts the thread, which prepares the folder and tries again while that fails.
@@ -35,9 +38,13 @@ class RecorderSink final : public Sink {
   std::chrono::nanoseconds cpu_time() const override { return thread_.cpu_time(); }
   std::vector<InterfaceMetric> metrics() const override;
 
-  void accept(const ViewPtr&) override {}  // pictures are not recorded
+  void accept_frames(const hal::FrameSet& set) override;
+  void accept(const ViewPtr&) override {}  // the cameras' own pictures are recorded
   void accept(const Status& status) override;
   void accept_event(const AlarmNotice& notice) override;
+
+  /// Records an event with pictures around the next frame set. False: none are configured.
+  bool request_event();
 
   recorder::RecorderStatistics statistics() const;
 
@@ -58,9 +65,11 @@ class RecorderSink final : public Sink {
   void run();
   hal::TimePoint next_wake() const;
   void record_all();
-  hal::mcap::FileResult<> record();
+  Result<bool> record_round(hal::TimePoint now);
+  Result<> record();
+  Result<> keep(recorder::LogMessage message, std::uint64_t& unflushed);
   Result<> begin();
-  hal::mcap::FileResult<> flush(hal::TimePoint now);
+  Result<> flush(hal::TimePoint now);
   void end();
   void count_flushed();
   void give_up(const std::string& reason);
@@ -78,6 +87,7 @@ class RecorderSink final : public Sink {
   std::atomic<bool> has_fault_{false};
   std::atomic<hal::TimePoint> busy_since_{hal::TimePoint{}};  ///< the epoch: waits for work
   recorder::RecorderCounters counters_;
+  std::optional<recorder::EventRecorder> pictures_;  ///< of events
 
   // The recorder's thread's.
   recorder::RecordingFolder folder_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ctime>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "app/log.h"
@@ -15,11 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kLogName = "log-";
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 
 bool is_recording(const fs::path& file) {
   const std::string name = file.filename().string();
-  return name.starts_with("log-") && name.ends_with(".mcap");
+  return name.starts_with(kLogName) && name.ends_with(".mcap");
 }
 
 std::string text_of(const fs::path& folder, const std::error_code& error) {
@@ -46,7 +48,7 @@ Result<> RecordingFolder::prepare() {
                                    ", which an earlier run did not end");
     }
   }
-  return {};
+  return events_.prepare();
 }
 
 Result<std::vector<Recording>> RecordingFolder::list() const {
@@ -76,29 +78,53 @@ fs::path RecordingFolder::name_for(std::chrono::system_clock::time_point utc) co
   return file;
 }
 
+Result<RecordingFolder::Contents> RecordingFolder::contents(const fs::path& current) const {
+  const auto logs = list();
+  if (!logs) return tl::unexpected(logs.error());
+  const auto events = events_.list();
+  if (!events) return tl::unexpected(events.error());
+  Contents contents;
+  for (const Recording& log : *logs) {
+    contents.bytes += log.bytes;
+    if (log.file == current) continue;
+    const auto remove = [file = log.file]() -> Result<> {
+      std::error_code error;
+      if (!fs::remove(file, error) && error) return fail(text_of(file, error));
+      return {};
+    };
+    const std::string name = log.file.filename().string().substr(kLogName.size());
+    contents.deletable.push_back({name, log.bytes, remove});
+  }
+  for (const StoredEvent& event : *events) {
+    contents.bytes += event.bytes;
+    if (event.is_pinned || !event.is_finished) continue;
+    const auto remove = [this, event] { return events_.remove(event); };
+    contents.deletable.push_back({event.name, event.bytes, remove});
+  }
+  std::ranges::sort(contents.deletable, {}, &Deletable::begun);
+  return contents;
+}
+
 Result<int> RecordingFolder::make_room(const fs::path& current) const {
-  auto recordings = list();
-  if (!recordings) return tl::unexpected(recordings.error());
-  std::uint64_t bytes = 0;
-  for (const Recording& recording : *recordings) bytes += recording.bytes;
-  std::erase_if(*recordings, [&](const Recording& one) { return one.file == current; });
+  auto found = contents(current);
+  if (!found) return tl::unexpected(found.error());
   const auto limit = static_cast<std::uint64_t>(settings_.limit_mib) * kMebibyte;
   const auto reserve = static_cast<std::uint64_t>(settings_.reserve_mib) * kMebibyte;
   int removed = 0;
-  for (auto oldest = recordings->begin();; ++oldest) {
+  for (auto oldest = found->deletable.begin();; ++oldest) {
     std::error_code error;
     const fs::space_info space = fs::space(settings_.folder, error);
     if (error) return fail(text_of(settings_.folder, error));
     const bool is_short = space.available < reserve;
-    if (bytes <= limit && !is_short) return removed;
-    if (oldest == recordings->end()) {
+    if (found->bytes <= limit && !is_short) return removed;
+    if (oldest == found->deletable.end()) {
       if (!is_short) return removed;
       return fail(settings_.folder.string() + " has " +
                   std::to_string(space.available / kMebibyte) +
                   " MiB left, less than reserve_mib, and no recording to delete");
     }
-    if (!fs::remove(oldest->file, error) && error) return fail(text_of(oldest->file, error));
-    bytes -= oldest->bytes;
+    if (auto done = oldest->remove(); !done) return tl::unexpected(done.error());
+    found->bytes -= oldest->bytes;
     ++removed;
   }
 }

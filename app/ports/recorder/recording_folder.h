@@ -4,43 +4,62 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "app/ports/recorder/events/event_folder.h"
 #include "app/ports/recorder/recorder_settings.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::recorder {
 
-/// A recording in the folder.
+/// A log in the folder.
 struct Recording {
   std::filesystem::path file;
   std::uint64_t bytes = 0;
 };
 
-/// The folder of recordings, kept within its limits; other files in it are not touched. The folder
-/// is the truth, there is no index beside it. Thread-bound; waits for the disk.
+/// The folder of recordings, logs and events, kept within its limits; other files in it are not
+/// touched. The folder is the truth, there is no index beside it. Thread-bound; waits for the disk.
 class RecordingFolder {
  public:
-  explicit RecordingFolder(const RecorderSettings& settings) : settings_(settings) {}
+  explicit RecordingFolder(const RecorderSettings& settings)
+      : settings_(settings), events_(settings.folder) {}
 
-  /// Creates the folder and finishes recordings that an earlier run did not end; what cannot be
+  /// Creates the folders and finishes recordings that an earlier run did not end; what cannot be
   /// finished is logged and stays. Error: the folder.
   Result<> prepare();
 
-  /// Recordings, the oldest first by their names.
+  /// Logs, the oldest first by their names.
   Result<std::vector<Recording>> list() const;
 
   /// Name for a recording that begins at `utc`: log-20261128T092200Z.mcap, with a number behind it
   /// if there is one already, as after the clock was set back.
   std::filesystem::path name_for(std::chrono::system_clock::time_point utc) const;
 
-  /// Deletes the oldest recordings except `current` until the limits hold; returns their number.
+  /// Deletes the oldest logs and events until the limits hold, except the log `current`, events
+  /// that are pinned, and those that are being recorded; returns their number.
   /// Errors: the folder; the disk has less than the reserve although there is none to delete.
   Result<int> make_room(const std::filesystem::path& current) const;
 
  private:
+  /// A log or an event that may be deleted.
+  struct Deletable {
+    std::string begun;  ///< by its name
+    std::uint64_t bytes = 0;
+    std::function<Result<>()> remove;
+  };
+  /// What may be deleted, the oldest first, and the bytes of all recordings.
+  struct Contents {
+    std::vector<Deletable> deletable;
+    std::uint64_t bytes = 0;
+  };
+  Result<Contents> contents(const std::filesystem::path& current) const;
+
   const RecorderSettings settings_;
+  EventFolder events_;
   std::set<std::filesystem::path> unfinished_;  ///< those that cannot be finished, logged once
 };
 

@@ -88,8 +88,9 @@ class Dispatch : public testing::Test {
   }
 
   CommandResult command(CommandCode code, double argument = 0) {
-    return dispatch({code, {argument}}, {*pipeline, *lines, snapshots ? &*snapshots : nullptr,
-                                         watch, alignment, restart()});
+    return dispatch({code, {argument}},
+                    {*pipeline, *lines, snapshots ? &*snapshots : nullptr,
+                     recorder ? &*recorder : nullptr, watch, alignment, restart()});
   }
   Restart restart() {
     return {[this]() -> Result<> {
@@ -124,6 +125,7 @@ class Dispatch : public testing::Test {
   std::vector<TriggeredCamera*> cameras;
   orbwatch::tests::TemporaryFolder folder;
   std::optional<SnapshotSink> snapshots;
+  std::optional<RecorderSink> recorder;
   std::uint64_t sets = 0;
   int restarts = 0;
   bool may_restart = true;
@@ -247,6 +249,17 @@ TEST_F(Dispatch, AllElseGoesToThePipeline) {
   EXPECT_EQ(command(CommandCode::Start), CommandResult::Done);
   EXPECT_EQ(command(CommandCode::SetProcessActive, 1), CommandResult::Done);
   EXPECT_EQ(command(CommandCode::AcknowledgeAlarm, 0), CommandResult::Done);
+}
+
+TEST_F(Dispatch, RecordsAnEventOnlyWherePicturesWait) {
+  start({hal::TriggerMode::Off});
+  EXPECT_EQ(command(CommandCode::RecordEvent), CommandResult::NotPossible);
+  RecorderSettings settings{.folder = folder.path()};
+  recorder.emplace(settings, StatusNames{}, RecordedTexts{});
+  EXPECT_EQ(command(CommandCode::RecordEvent), CommandResult::NotPossible) << "it has no ring";
+  settings.events.emplace().ring_mib = 1;
+  recorder.emplace(settings, StatusNames{}, RecordedTexts{});
+  EXPECT_EQ(command(CommandCode::RecordEvent), CommandResult::Done);
 }
 
 TEST_F(Dispatch, AlignsNoCameraThatIsNotThere) {

@@ -67,6 +67,20 @@ TEST(SiteCheck, FindsThresholdsThatNothingReaches) {
             "none");
 }
 
+TEST(SiteCheck, FindsARingThatDoesNotHoldAnEvent) {
+  const auto with_ring = [](int mebibytes) {
+    return refusal([mebibytes](files::Resolved& site) {
+      for (files::CameraSettings& camera : site.site.cameras) camera.stream.frame_rate = 30;
+      auto& recorder = std::get<RecorderSettings>(site.site.sinks);
+      recorder.folder = "recordings";
+      recorder.events.emplace().ring_mib = mebibytes;
+    });
+  };
+  EXPECT_THAT(with_ring(1), testing::HasSubstr("recorder.events.ring_mib is 1; before_s and "
+                                               "after_s together need "));
+  EXPECT_EQ(with_ring(4096), "none");
+}
+
 TEST(SiteCheck, FindsModbusAndThePageOnOnePort) {
   const auto on = [](int port, std::optional<int> https, const char* page, const char* plc) {
     return refusal([=](files::Resolved& site) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // read_log.mjs FILE: prints the messages of a recording by the definitions in it, as others read them: a line for
-// each figure, with the bits of its value, and for each attachment.
+// each figure, with the bits of its value, for each lossless picture, with the CRC-32 of its pixels, and for each
+// attachment.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import { crc32 } from 'node:zlib';
 
 const require = createRequire(join(process.env.NODE_PATH, 'here.js'));
 const { McapStreamReader } = require('@mcap/core');
@@ -35,6 +37,12 @@ for (let record; (record = stream.nextRecord()); ) {
     const { topic, name, reader } = channels.get(record.channelId);
     const message = reader.readMessage(record.data);
     const { sec, nsec, nanosec = nsec } = message.header.stamp;
+    if (message.encoding !== undefined) {
+      const { width, height, encoding, is_bigendian: order, step, data } = message;
+      console.log(`${topic} ${name} ${record.sequence} ${sec}.${String(nanosec).padStart(9, '0')} ` +
+                  `${width}x${height} ${encoding} ${order} ${step} ${crc32(data)}`);
+      continue;
+    }
     const at = `${topic} ${name} ${message.frame_set ?? message.number} ${sec}.${String(nanosec).padStart(9, '0')}`;
     if (message.components === undefined) console.log(`${at} ${message.source} ${message.severity} ${message.text}`);
     for (const { kind, name: part, figures } of message.components ?? []) {

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "hal/mcap/reader.h"
+#include "tests/app/ports/recorder/events/recorded_machine.h"
 #include "tests/support/reference_data.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
@@ -24,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Lines = std::multiset<std::string>;
+using orbwatch::tests::RecordedMachine;
 using recorder::RecorderStatistics;
 
 /// Waits for the recorder, whose thread works for itself.
@@ -236,6 +238,53 @@ TEST_F(Recorder, AFolderThatCannotBeMadeIsAFaultUntilItCan) {
     return sink->statistics().recorded > 0;
   }));
   EXPECT_TRUE(sink->works());
+}
+
+TEST_F(Recorder, AnEventByCommandIsRecordedBesideTheLogOnceTheDiskIsThere) {
+  RecorderSettings site = settings();
+  site.events.emplace();
+  site.events->ring_mib = 1;
+  site.events->before = site.events->after = std::chrono::milliseconds(50);
+  RecorderSink sink(site, names_, texts_, RecordedMachine::cameras());
+  std::uint64_t n = 0;
+  const auto pass_set = [&] {
+    hal::FrameSet set;
+    set.id = ++n;
+    set.stamp = RecordedMachine::at(n);
+    set.frames[0] = orbwatch::tests::painted_frame(n, 0, set.stamp, RecordedMachine::kWidth,
+                                                   RecordedMachine::kHeight);
+    sink.accept_frames(set);
+    Status status = status_of(n);
+    status.stamp = set.stamp;
+    sink.accept(status);
+  };
+  const auto record_event = [&] {
+    for (int k = 0; k < 10; ++k) pass_set();
+    EXPECT_TRUE(sink.request_event());
+    for (int k = 0; k < 20; ++k) pass_set();
+  };
+  // The folder of events is in the way of another file.
+  fs::create_directories(site.folder);
+  std::ofstream(site.folder / "events") << "a file";
+  ASSERT_TRUE(sink.start());
+  record_event();
+  ASSERT_TRUE(eventually([&] { return sink.statistics().recordings_lost == 1; }));
+  EXPECT_FALSE(sink.works());
+  fs::remove(site.folder / "events");
+  ASSERT_TRUE(eventually([&] {
+    pass_set();
+    return sink.works();
+  }));
+  record_event();
+  ASSERT_TRUE(eventually([&] { return sink.statistics().recordings == 1; }));
+  sink.stop();
+  EXPECT_GE(sink.statistics().pictures, 9U);
+  EXPECT_GT(sink.statistics().recorded, 0U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(site.folder / "events"), {}), 1);
+}
+
+TEST_F(Recorder, WithoutARingNoEventCanBeRequested) {
+  EXPECT_FALSE(started(settings())->request_event());
 }
 
 TEST_F(Recorder, TheSenderNeverWaitsAndEveryLossIsCounted) {

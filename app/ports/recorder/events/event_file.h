@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/model/sink/recorded_camera.h"
+#include "app/pictures/jpeg_encoder.h"
+#include "app/ports/recorder/events/event_settings.h"
+#include "app/ports/recorder/events/frame_ring.h"
+#include "app/ports/recorder/log_file.h"
+#include "hal/mcap/fields.h"
+
+namespace orbwatch::app::recorder {
+
+/// The recording of an event: the log's messages and the cameras' pictures. All stamps of the file
+/// are converted to UTC by one difference, so that intervals are those of the steady clock; the
+/// messages of a frame set have its stamp as their log time. Thread-bound; waits for the disk.
+class EventFile {
+ public:
+  /// Creates the file. `cameras` by index in the frame sets; the references are the caller's and
+  /// outlive this. `moment` and `utc` are the same. Errors: of the disk.
+  static hal::mcap::FileResult<EventFile> create(const std::filesystem::path& path,
+                                                 const RecordedTexts& texts,
+                                                 const EventSettings& settings,
+                                                 const std::vector<RecordedCamera>& cameras,
+                                                 hal::TimePoint moment, Utc utc);
+
+  hal::mcap::FileResult<> write(const LogMessage& message);
+  /// Codes and writes a picture. Errors: of the disk; a picture that cannot be coded.
+  hal::mcap::FileResult<> write(const KeptFrame& frame);
+
+  /// Hands everything to the disk, and waits until it is there.
+  hal::mcap::FileResult<> flush() { return log_.flush(); }
+  hal::mcap::FileResult<> finish();
+
+  Utc utc(hal::TimePoint moment) const { return utc_ + (moment - moment_); }
+  /// Pictures by camera.
+  const std::vector<std::uint64_t>& pictures() const { return pictures_; }
+  std::uint64_t size() const { return log_.size(); }
+
+ private:
+  /// Topics of a camera.
+  struct Channels {
+    std::uint16_t pictures = 0, places = 0;
+  };
+
+  EventFile(LogFile log, const EventSettings& settings, const std::vector<RecordedCamera>& cameras,
+            hal::TimePoint moment, Utc utc)
+      : log_(std::move(log)),
+        settings_(&settings),
+        cameras_(&cameras),
+        moment_(moment),
+        utc_(utc),
+        channels_(cameras.size()),
+        pictures_(cameras.size()) {}
+
+  bool is_lossless(PixelFormat format) const;
+  hal::mcap::FileResult<> add_camera(const KeptFrame& frame);
+  hal::mcap::FileResult<> encode(const KeptFrame& frame, const hal::recording::Header& header);
+
+  LogFile log_;
+  const EventSettings* settings_;
+  const std::vector<RecordedCamera>* cameras_;
+  hal::TimePoint moment_;
+  Utc utc_{};
+  std::vector<std::optional<Channels>> channels_;
+  std::vector<std::uint64_t> pictures_;
+  JpegEncoder jpeg_;
+  hal::mcap::Bytes pixels_, message_;  ///< reused
+};
+
+}  // namespace orbwatch::app::recorder

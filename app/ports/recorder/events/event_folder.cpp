@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/recorder/events/event_folder.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "app/log.h"
+#include "app/model/status/utc_text.h"
+#include "app/ports/recorder/events/event_name.h"
+#include "app/ports/recorder/events/event_summary.h"
+#include "hal/atomic_file.h"
+#include "hal/mcap/completion.h"
+#include "hal/mcap/reader.h"
+#include "hal/recording/topics.h"
+
+namespace orbwatch::app::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kUnfinished = ".unfinished", kDeleted = ".deleted";
+
+tl::unexpected<Error> failure(const fs::path& path, const std::error_code& error) {
+  return fail(path.string() + ": " + error.message());
+}
+
+/// Name of the event of a folder with this ending; empty: another one.
+std::string name_before(const fs::path& folder, std::string_view ending) {
+  std::string name = folder.filename().string();
+  if (!name.ends_with(ending)) return {};
+  name.resize(name.size() - ending.size());
+  return is_event_name(name) ? name : std::string();
+}
+
+/// Bytes of the files in a folder; those that vanish meanwhile do not count.
+std::uint64_t bytes_in(const fs::path& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code vanished;
+    const std::uint64_t size = it->file_size(vanished);
+    if (!vanished) bytes += size;
+  }
+  return bytes;
+}
+
+Utc utc_of(std::uint64_t nanoseconds) {
+  return Utc(std::chrono::duration_cast<Utc::duration>(std::chrono::nanoseconds(nanoseconds)));
+}
+
+/// Completes the summary that was written at the start by what the recording has.
+Result<> update_summary(const fs::path& folder) {
+  const auto reader = hal::mcap::Reader::open(folder / kEventFile);
+  if (!reader) return fail(reader.error().message);
+  auto summary = read_summary(folder);
+  if (!summary) return tl::unexpected(summary.error());
+  const hal::mcap::Summary& recorded = reader->summary();
+  const hal::mcap::Statistics statistics = recorded.statistics();
+  summary->first = utc_text(utc_of(statistics.message_start_time)).value_or("");
+  summary->last = utc_text(utc_of(statistics.message_end_time)).value_or("");
+  for (const auto& [id, count] : recorded.message_counts) {
+    const std::string& topic = recorded.channels.at(id).topic;
+    if (topic.ends_with("/camera_info")) continue;
+    const auto camera = hal::recording::camera_of(topic);
+    for (auto& [name, pictures] : summary->pictures) pictures = camera == name ? count : pictures;
+  }
+  summary->is_interrupted = true;
+  return write_summary(folder, *summary);
+}
+
+}  // namespace
+
+Result<> EventFolder::prepare() {
+  std::error_code error;
+  std::vector<fs::path> folders;
+  if (!fs::exists(root_, error) && !error) return {};
+  for (fs::directory_iterator it(root_, error), end; !error && it != end; it.increment(error)) {
+    folders.push_back(it->path());
+  }
+  for (const fs::path& folder : folders) {
+    if (!name_before(folder, kDeleted).empty()) fs::remove_all(folder, error);
+    if (name_before(folder, kUnfinished).empty() || given_up_.contains(folder)) continue;
+    const auto recovered = recover(folder);
+    if (!recovered) given_up_.insert(folder);
+    log_line(recovered ? LogLevel::Info : LogLevel::Warning,
+             "recorder: " + folder.string() +
+                 (recovered ? " was not recorded to its end; it is finished now"
+                            : " cannot be finished: " + recovered.error().message));
+  }
+  if (error) return failure(root_, error);
+  return {};
+}
+
+/// An event without a recording, because its recorder ended while it made the folder, is deleted.
+Result<> EventFolder::recover(const fs::path& unfinished) const {
+  std::error_code error;
+  if (auto removed = hal::remove_unfinished(unfinished); !removed) return removed;
+  if (!fs::exists(unfinished / kEventSummary, error) ||
+      !fs::exists(unfinished / kEventFile, error)) {
+    fs::remove_all(unfinished, error);
+    if (error) return failure(unfinished, error);
+    return {};
+  }
+  const auto completed = hal::mcap::complete(unfinished / kEventFile);
+  if (!completed) return fail(completed.error().message);
+  return update_summary(unfinished).and_then([&] { return finish(unfinished); });
+}
+
+Result<std::vector<StoredEvent>> EventFolder::list() const {
+  std::vector<StoredEvent> events;
+  std::error_code error;
+  if (!fs::exists(root_, error) && !error) return events;
+  for (fs::directory_iterator it(root_, error), end; !error && it != end; it.increment(error)) {
+    const fs::path& folder = it->path();
+    std::string name = name_before(folder, "");
+    const bool is_finished = !name.empty();
+    if (!is_finished) name = name_before(folder, kUnfinished);
+    std::error_code none;
+    if (name.empty() || !it->is_directory(none)) continue;
+    events.push_back({std::move(name), folder, bytes_in(folder),
+                      fs::exists(folder / kEventPin, none), is_finished});
+  }
+  if (error) return failure(root_, error);
+  std::ranges::sort(events, {}, &StoredEvent::name);
+  return events;
+}
+
+Result<StoredEvent> EventFolder::find(std::string_view name) const {
+  if (!is_event_name(name)) {
+    return fail("\"" + std::string(name) +
+                "\" is not the name of an event, such as 20261128T092200.125Z-alarm");
+  }
+  const auto events = list();
+  if (!events) return tl::unexpected(events.error());
+  const auto found = std::ranges::find(*events, name, &StoredEvent::name);
+  if (found == events->end()) {
+    return fail("there is no event " + std::string(name) + " in " + root_.string());
+  }
+  return *found;
+}
+
+Result<fs::path> EventFolder::begin(Utc triggered, TriggerKind trigger) const {
+  const std::string name = event_name(triggered, trigger);
+  std::error_code error;
+  const auto exists = [&](const std::string& one) {
+    return fs::exists(root_ / one, error) || fs::exists(root_ / (one + kUnfinished.data()), error);
+  };
+  std::string unique = name;
+  for (int n = 2; exists(unique); ++n) unique = name + "-" + std::to_string(n);
+  const fs::path folder = root_ / (unique + kUnfinished.data());
+  fs::create_directories(folder, error);
+  if (error) return failure(folder, error);
+  return folder;
+}
+
+Result<> EventFolder::finish(const fs::path& unfinished) const {
+  std::error_code error;
+  fs::rename(unfinished, root_ / name_before(unfinished, kUnfinished), error);
+  if (error) return failure(unfinished, error);
+  return hal::sync_folder(root_);
+}
+
+Result<> EventFolder::remove(const StoredEvent& event) const {
+  std::error_code error;
+  const fs::path doomed = root_ / (event.name + kDeleted.data());
+  fs::rename(event.folder, doomed, error);
+  if (!error) fs::remove_all(doomed, error);
+  if (error) return failure(event.folder, error);
+  return {};
+}
+
+Result<> EventFolder::set_pinned(const StoredEvent& event, bool is_pinned) {
+  if (is_pinned) return hal::write_file(event.folder / kEventPin, std::string_view());
+  std::error_code error;
+  fs::remove(event.folder / kEventPin, error);
+  if (error) return failure(event.folder, error);
+  return {};
+}
+
+}  // namespace orbwatch::app::recorder

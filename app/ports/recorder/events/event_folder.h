@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ports/recorder/events/event_triggers.h"
+#include "app/ports/recorder/messages.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::recorder {
+
+/// An event on the disk.
+struct StoredEvent {
+  std::string name;
+  std::filesystem::path folder;
+  std::uint64_t bytes = 0;
+  bool is_pinned = false;
+  bool is_finished = true;  ///< false: it is being recorded, or its recorder ended early
+};
+
+/// The folder `events` of recordings: one folder for each event, which is the truth; there is no
+/// index beside it. An event that is being recorded has the name NAME.unfinished, one that is being
+/// deleted NAME.deleted. What has other names is not touched. Thread-bound; waits for the disk.
+class EventFolder {
+ public:
+  explicit EventFolder(const std::filesystem::path& recordings) : root_(recordings / "events") {}
+
+  /// Finishes events whose recorder ended early, and ends deletions. What cannot be finished is
+  /// logged once and stays. Error: the folder.
+  Result<> prepare();
+
+  /// The oldest first by their names; none without the folder. Error: the folder.
+  Result<std::vector<StoredEvent>> list() const;
+  /// Errors: not the name of an event; there is none.
+  Result<StoredEvent> find(std::string_view name) const;
+
+  /// Makes the folder of an unfinished event, and that of all events. Errors: of the disk.
+  Result<std::filesystem::path> begin(Utc triggered, TriggerKind trigger) const;
+  /// Gives the folder its name, which survives a power cut.
+  Result<> finish(const std::filesystem::path& unfinished) const;
+
+  /// Deletes an event, whole or not at all.
+  Result<> remove(const StoredEvent& event) const;
+  /// Protects a finished event from being deleted for room, or ends that.
+  static Result<> set_pinned(const StoredEvent& event, bool is_pinned);
+
+ private:
+  Result<> recover(const std::filesystem::path& unfinished) const;
+
+  std::filesystem::path root_;
+  std::set<std::filesystem::path> given_up_;  ///< those that cannot be finished
+};
+
+}  // namespace orbwatch::app::recorder

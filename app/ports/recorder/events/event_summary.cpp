@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/recorder/events/event_summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "hal/atomic_file.h"
+#include "hal/regular_file.h"
+
+namespace orbwatch::app::recorder {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A summary has a few lines per camera and library.
+constexpr std::size_t kLongestSummary = 64 << 10;
+
+/// Null for a text or a number that is not known.
+Json known(const std::string& text) { return text.empty() ? Json() : Json(text); }
+Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+
+template <class Value>
+Json object_of(const std::vector<std::pair<std::string, Value>>& entries) {
+  Json object = Json::object();
+  for (const auto& [name, value] : entries) object[name] = value;
+  return object;
+}
+
+template <class Value>
+void read_object(const Json& object, std::vector<std::pair<std::string, Value>>& entries) {
+  for (const auto& [name, value] : object.items())
+    entries.emplace_back(name, value.template get<Value>());
+}
+
+void read_known(const Json& value, std::string& text) {
+  if (!value.is_null()) text = value.get<std::string>();
+}
+
+EventSummary summary_of(const Json& json) {
+  EventSummary summary;
+  summary.trigger = json.at("trigger").get<std::string>();
+  summary.text = json.at("text").get<std::string>();
+  read_known(json.at("first"), summary.first);
+  read_known(json.at("triggered"), summary.triggered);
+  read_known(json.at("last"), summary.last);
+  summary.frame_set = json.at("frame_set").get<std::uint64_t>();
+  summary.recipe = json.at("recipe").get<std::uint16_t>();
+  read_known(json.at("part"), summary.part);
+  if (!json.at("layer").is_null()) summary.layer = json.at("layer").get<double>();
+  read_object(json.at("pictures"), summary.pictures);
+  summary.lost = json.at("lost").get<std::uint64_t>();
+  summary.has_beginning = json.at("has_beginning").get<bool>();
+  summary.is_interrupted = json.at("is_interrupted").get<bool>();
+  read_object(json.at("versions"), summary.versions);
+  return summary;
+}
+
+}  // namespace
+
+std::string summary_text(const EventSummary& summary) {
+  const Json json{{"trigger", summary.trigger},
+                  {"text", summary.text},
+                  {"first", known(summary.first)},
+                  {"triggered", known(summary.triggered)},
+                  {"last", known(summary.last)},
+                  {"frame_set", summary.frame_set},
+                  {"recipe", summary.recipe},
+                  {"part", known(summary.part)},
+                  {"layer", known(summary.layer)},
+                  {"pictures", object_of(summary.pictures)},
+                  {"lost", summary.lost},
+                  {"has_beginning", summary.has_beginning},
+                  {"is_interrupted", summary.is_interrupted},
+                  {"versions", object_of(summary.versions)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<> write_summary(const std::filesystem::path& folder, const EventSummary& summary) {
+  return hal::write_file(folder / kEventSummary, summary_text(summary));
+}
+
+Result<EventSummary> read_summary(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kEventSummary;
+  const auto text = hal::read_regular_file(file, kLongestSummary);
+  if (!text) return tl::unexpected(text.error());
+  try {
+    return summary_of(Json::parse(*text));
+  } catch (const Json::exception& error) {
+    return fail(file.string() + " is not a summary of an event: " + error.what());
+  }
+}
+
+}  // namespace orbwatch::app::recorder

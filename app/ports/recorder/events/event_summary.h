@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/ports/recorder/events/event_triggers.h"
+#include "app/ports/recorder/messages.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::recorder {
+
+/// What happened in an event, and what was recorded of it: summary.json in its folder.
+struct EventSummary {
+  std::string trigger;                 ///< name of the kind
+  std::string text;                    ///< for operators, one line
+  std::string first, triggered, last;  ///< UTC of frame sets; empty: no picture
+  std::uint64_t frame_set = 0;         ///< of the trigger
+  std::uint16_t recipe = 0;
+  std::string part;                                             ///< empty: not known
+  double layer = signals::kNotValid;                            ///< of the part
+  std::vector<std::pair<std::string, std::uint64_t>> pictures;  ///< by camera
+  std::uint64_t lost = 0;       ///< pictures that found no room while it was recorded
+  bool has_beginning = true;    ///< false: pictures before the trigger were replaced before
+  bool is_interrupted = false;  ///< it was not recorded to its end
+  std::vector<std::pair<std::string, std::string>> versions;
+};
+
+/// Names of the files in the folder of an event.
+inline constexpr const char* kEventFile = "event.mcap";
+inline constexpr const char* kEventSummary = "summary.json";
+inline constexpr const char* kEventPicture = "trigger.jpg";
+inline constexpr const char* kEventPin = "pinned";
+
+/// As JSON. Reentrant.
+std::string summary_text(const EventSummary& summary);
+
+/// Errors: of the disk.
+Result<> write_summary(const std::filesystem::path& folder, const EventSummary& summary);
+
+/// Errors: missing, unreadable, or not a summary.
+Result<EventSummary> read_summary(const std::filesystem::path& folder);
+
+}  // namespace orbwatch::app::recorder

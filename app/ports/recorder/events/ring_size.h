@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/model/sink/recorded_camera.h"
+#include "app/ports/recorder/events/event_settings.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::recorder {
+
+/// True: the settings name the camera, or none. Reentrant.
+bool is_recorded(const EventSettings& settings, const RecordedCamera& camera);
+
+/// Bytes of the camera's part of a picture. Reentrant.
+std::size_t picture_bytes_of(const RecordedCamera& camera);
+
+/// Checks that the ring holds a whole event with one trigger, as far as rates and formats are
+/// known. Errors: a camera that does not exist, or whose pictures are too large for a recording;
+/// what the ring must have. Reentrant.
+Result<> check_ring(const EventSettings& settings, const std::vector<RecordedCamera>& cameras);
+
+}  // namespace orbwatch::app::recorder

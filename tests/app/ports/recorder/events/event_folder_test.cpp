@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/recorder/events/event_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "app/ports/recorder/events/event_name.h"
+#include "app/ports/recorder/events/event_summary.h"
+#include "app/ports/recorder/recording_folder.h"
+#include "tests/app/ports/recorder/events/read_event.h"
+#include "tests/app/ports/recorder/events/recorded_machine.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using tests::RecordedMachine;
+
+class StoredEvents : public testing::Test {
+ protected:
+  RecorderSettings settings() const {
+    EventSettings events;
+    events.ring_mib = 1;
+    events.before = events.after = milliseconds(50);
+    events.longest = milliseconds(300);
+    return {.folder = folder_.path(), .events = events};
+  }
+
+  /// A finished event of these bytes on the disk.
+  void make_event(const std::string& name, std::uintmax_t bytes, bool is_pinned = false) const {
+    const fs::path folder = folder_ / "events" / name;
+    fs::create_directories(folder);
+    std::ofstream(folder / kEventFile) << "x";
+    fs::resize_file(folder / kEventFile, bytes);
+    if (is_pinned) std::ofstream(folder / kEventPin) << "";
+  }
+  bool has(const std::string& name) const { return fs::exists(folder_ / "events" / name); }
+
+  const orbwatch::tests::TemporaryFolder folder_;
+};
+
+TEST(EventName, IsMomentAndTriggerAndNothingElse) {
+  const Utc moment = std::chrono::sys_days(std::chrono::year(2026) / 11 / 28) +
+                     std::chrono::hours(9) + milliseconds(125);
+  EXPECT_EQ(event_name(moment, TriggerKind::Laser), "20261128T090000.125Z-laser_on");
+  for (const TriggerKind kind : kTriggerKinds) EXPECT_TRUE(is_event_name(event_name(moment, kind)));
+  EXPECT_TRUE(is_event_name("20261128T090000.125Z-alarm-2"));
+  for (const char* const name :
+       {"", "..", "../20261128T090000.125Z-alarm", "20261128T090000.125Z-alarm/..",
+        "20261128T090000.125Z-", "20261128T090000.125Z-alarm-", "20261128T090000.125Z-alarm-x",
+        "20261128T090000.125Z-other", "2026x128T090000.125Z-alarm",
+        "20261128T090000.125Z-alarm2"}) {
+    EXPECT_FALSE(is_event_name(name)) << name;
+  }
+}
+
+TEST_F(StoredEvents, NamesThatLeaveTheFolderAreRefused) {
+  make_event("20261128T090000.000Z-alarm", 10);
+  std::ofstream(folder_ / "secret") << "x";
+  const EventFolder folder(folder_.path());
+  EXPECT_TRUE(folder.find("20261128T090000.000Z-alarm"));
+  for (const char* const name : {"../secret", "..", ".", "", "events/../..", "/etc"}) {
+    const auto found = folder.find(name);
+    ASSERT_FALSE(found) << name;
+    EXPECT_THAT(found.error().message, testing::HasSubstr("is not the name of an event"));
+  }
+  EXPECT_FALSE(folder.find("20261128T090000.000Z-layer"));
+}
+
+TEST_F(StoredEvents, PinnedOnesStayAndTheOldestOtherGoesFirst) {
+  constexpr std::uintmax_t kBig = std::uintmax_t{100} << 20;
+  make_event("20260101T000000.000Z-alarm", kBig, true);
+  make_event("20260102T000000.000Z-alarm", kBig);
+  make_event("20260104T000000.000Z-alarm", kBig);
+  std::ofstream(folder_ / "log-20260103T000000Z.mcap") << "x";
+  fs::resize_file(folder_ / "log-20260103T000000Z.mcap", kBig);
+  RecorderSettings small = settings();
+  small.limit_mib = 256;
+  const RecordingFolder folder(small);
+  EXPECT_EQ(folder.make_room({}), 2);
+  EXPECT_TRUE(has("20260101T000000.000Z-alarm"));
+  EXPECT_FALSE(has("20260102T000000.000Z-alarm"));
+  EXPECT_FALSE(fs::exists(folder_ / "log-20260103T000000Z.mcap"));
+  EXPECT_TRUE(has("20260104T000000.000Z-alarm"));
+}
+
+TEST_F(StoredEvents, APinIsSetAndRemoved) {
+  make_event("20261128T090000.000Z-alarm", 10);
+  const EventFolder folder(folder_.path());
+  const auto event = folder.find("20261128T090000.000Z-alarm");
+  ASSERT_TRUE(event);
+  EXPECT_FALSE(event->is_pinned);
+  ASSERT_TRUE(EventFolder::set_pinned(*event, true));
+  EXPECT_TRUE(folder.find(event->name)->is_pinned);
+  ASSERT_TRUE(EventFolder::set_pinned(*event, false));
+  EXPECT_FALSE(folder.find(event->name)->is_pinned);
+  ASSERT_TRUE(folder.remove(*event));
+  EXPECT_TRUE(folder.list()->empty());
+  EXPECT_FALSE(has("20261128T090000.000Z-alarm"));
+}
+
+TEST_F(StoredEvents, AnEventThatWasCutIsFinishedAtTheNextStart) {
+  RecordedMachine machine(settings());
+  for (std::uint64_t n = 1; n <= 20; ++n) machine.pass(n, n == 10);
+  ASSERT_TRUE(machine.record());
+  for (int round = 0; round < 3; ++round) ASSERT_TRUE(machine.record());
+  ASSERT_TRUE(machine.recorder().flush());
+  const auto running = machine.events();
+  ASSERT_EQ(running.size(), 1U);
+  ASSERT_FALSE(running.front().is_finished);
+
+  // The disk's content as after a power failure now, with a torn record.
+  const orbwatch::tests::TemporaryFolder after;
+  const std::string name = running.front().folder.filename();
+  fs::create_directories(after / "events");
+  fs::copy(running.front().folder, after.path() / "events" / name);
+  const fs::path torn = after.path() / "events" / name / kEventFile;
+  std::ofstream(torn, std::ios::app) << "torn";
+  fs::create_directories(after.path() / "events" / "20261128T090000.000Z-layer.unfinished");
+  fs::create_directories(after.path() / "events" / "20261128T090000.000Z-layer.deleted");
+
+  EventFolder folder(after.path());
+  ASSERT_TRUE(folder.prepare());
+  const auto events = folder.list();
+  ASSERT_TRUE(events);
+  ASSERT_EQ(events->size(), 1U) << "an event without a recording is deleted";
+  EXPECT_TRUE(events->front().is_finished);
+  EXPECT_EQ(events->front().name, running.front().name);
+  const auto summary = read_summary(events->front().folder);
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_TRUE(summary->is_interrupted);
+  auto topics = tests::read_recording(events->front().folder / kEventFile);
+  EXPECT_EQ(topics["/orbwatch/thermal/image_raw"].size(), summary->pictures.front().second);
+  EXPECT_GT(summary->pictures.front().second, 0U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(after / "events"), {}), 1);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::recorder

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/recorder/events/event_recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "app/model/status/utc_text.h"
+#include "app/ports/recorder/events/event_summary.h"
+#include "hal/jpeg/jpeg_decoder.h"
+#include "hal/mcap/crc32.h"
+#include "hal/recording/image.h"
+#include "tests/app/ports/recorder/events/read_event.h"
+#include "tests/app/ports/recorder/events/recorded_machine.h"
+#include "tests/support/reference_data.h"
+#include "tests/support/subprocess.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using tests::ReadMessage;
+using tests::RecordedMachine;
+using Numbers = std::vector<std::uint64_t>;
+
+constexpr const char* kThermal = "/orbwatch/thermal/image_raw";
+constexpr const char* kColour = "/orbwatch/colour/image_raw/compressed";
+constexpr const char* kStates = "/orbwatch/process_state";
+
+class Events : public testing::Test {
+ protected:
+  RecorderSettings settings() const {
+    EventSettings events;
+    events.ring_mib = 1;
+    events.before = milliseconds(50);
+    events.after = milliseconds(40);
+    events.longest = milliseconds(300);
+    events.on_laser = events.on_layer = true;
+    return {.folder = folder_ / "recordings", .events = events};
+  }
+
+  static Numbers sequences_of(const std::vector<ReadMessage>& messages) {
+    Numbers numbers;
+    for (const ReadMessage& message : messages) numbers.push_back(message.sequence);
+    return numbers;
+  }
+
+  /// Frame sets from `first` to `last` that have a new frame of the colour camera, or of all.
+  static Numbers sets(std::uint64_t first, std::uint64_t last, bool is_colour = false) {
+    Numbers numbers;
+    for (std::uint64_t n = first; n <= last; ++n) {
+      if (!is_colour || n % 3 != 0) numbers.push_back(n);
+    }
+    return numbers;
+  }
+
+  /// First and last frame set within a window around a set.
+  static std::uint64_t first_of(std::uint64_t set, milliseconds before) {
+    std::uint64_t first = set;
+    while (first > 1 && RecordedMachine::at(first - 1) >= RecordedMachine::at(set) - before)
+      --first;
+    return first;
+  }
+  static std::uint64_t last_of(std::uint64_t set, milliseconds after) {
+    std::uint64_t last = set;
+    while (RecordedMachine::at(last + 1) <= RecordedMachine::at(set) + after) ++last;
+    return last;
+  }
+
+  /// Checks pixels, stamps and place of each thermal picture.
+  static void expect_painted(std::map<std::string, std::vector<ReadMessage>>& topics) {
+    const auto& pictures = topics[kThermal];
+    const auto& places = topics["/orbwatch/thermal/camera_info"];
+    ASSERT_EQ(places.size(), pictures.size());
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      hal::recording::Image image;
+      hal::recording::CameraInfo info;
+      ASSERT_TRUE(hal::mcap::decode_cdr(pictures[i].bytes, image));
+      ASSERT_TRUE(hal::mcap::decode_cdr(places[i].bytes, info));
+      EXPECT_EQ(image.encoding, "mono16");
+      EXPECT_EQ(image.header, info.header);
+      EXPECT_EQ(hal::recording::stamp_of(image.header), pictures[i].log_time);
+      const auto place = hal::recording::place_of(info);
+      ASSERT_TRUE(place);
+      ASSERT_EQ(place->region, RecordedMachine::kBall);
+      EXPECT_EQ(place->width, RecordedMachine::kWidth);
+      const auto picture = hal::recording::picture_of(image);
+      ASSERT_TRUE(picture) << picture.error().message;
+      const auto samples = picture->samples<std::uint16_t>();
+      for (int y = 0; y < samples.height; ++y) {
+        for (int x = 0; x < samples.width; ++x) {
+          ASSERT_EQ(samples.row(y)[x], tests::painted(pictures[i].sequence, 0, x + place->region.x,
+                                                      y + place->region.y));
+        }
+      }
+    }
+  }
+
+  const orbwatch::tests::TemporaryFolder folder_;
+};
+
+TEST_F(Events, EachTriggerHasItsWholeTimeInOneEventToTheFrame) {
+  const RecorderSettings site = settings();
+  RecordedMachine machine(site);
+  std::mt19937 random(7);
+  const auto roll = [&](unsigned most) { return random() % most; };
+  Numbers triggers;
+  machine.status.machine.values.laser_on = 0;
+  machine.status.machine.values.layer = 1;
+  std::uint64_t n = 1, next = 10;
+  for (; triggers.size() < 300; ++n) {
+    bool is_alarm = false;
+    machine.status.machine.values.laser_on = 0;
+    if (n == next) {
+      const unsigned kind = roll(4);
+      is_alarm = kind == 0;
+      if (kind == 1) machine.recorder().request();
+      if (kind == 2) machine.status.machine.values.laser_on = 1;
+      if (kind == 3) machine.status.machine.values.layer += 1;
+      triggers.push_back(n);
+      // In bursts, and apart: two sets at least, so that the laser is off between.
+      next = n + 2 + (roll(2) != 0 ? roll(3) : roll(40));
+    }
+    machine.pass(n, is_alarm);
+    for (unsigned rounds = roll(4); rounds > 0; --rounds) ASSERT_TRUE(machine.record());
+  }
+  for (const std::uint64_t end = n + 10; n < end; ++n) machine.pass(n);
+  machine.record_all();
+
+  const auto events = machine.events();
+  const RecorderStatistics statistics = machine.statistics();
+  EXPECT_EQ(statistics.pictures_lost, 0U);
+  EXPECT_EQ(statistics.recordings, events.size());
+  EXPECT_EQ(statistics.recordings + statistics.triggers_joined, triggers.size());
+  EXPECT_GT(statistics.triggers_joined, 40U);
+  ASSERT_GT(events.size(), 40U);
+
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> spans;
+  std::size_t overlaps = 0;
+  for (const StoredEvent& event : events) {
+    ASSERT_TRUE(event.is_finished) << event.name;
+    const auto summary = read_summary(event.folder);
+    ASSERT_TRUE(summary) << summary.error().message;
+    auto topics = tests::read_recording(event.folder / kEventFile);
+    const Numbers recorded = sequences_of(topics[kThermal]);
+    ASSERT_FALSE(recorded.empty());
+    const std::uint64_t first = recorded.front(), last = recorded.back();
+    EXPECT_EQ(recorded, sets(first, last)) << "none is missing, none is doubled";
+    EXPECT_EQ(sequences_of(topics[kColour]), sets(first, last, true));
+    EXPECT_EQ(tests::frame_sets_of(topics[kStates]), recorded);
+    EXPECT_EQ(first, first_of(summary->frame_set, site.events->before));
+    EXPECT_TRUE(std::ranges::any_of(triggers, [&](std::uint64_t trigger) {
+      return trigger >= first && last == last_of(trigger, site.events->after);
+    })) << last;
+    EXPECT_LE(RecordedMachine::at(last) - RecordedMachine::at(first), site.events->longest);
+    EXPECT_TRUE(summary->has_beginning);
+    EXPECT_FALSE(summary->is_interrupted);
+    EXPECT_EQ(summary->pictures.front(), std::pair(std::string("thermal"), recorded.size()));
+    EXPECT_TRUE(fs::exists(event.folder / kEventPicture));
+    expect_painted(topics);
+    if (!spans.empty() && spans.back().second >= first) ++overlaps;
+    spans.emplace_back(first, last);
+  }
+  EXPECT_GT(overlaps, 10U);
+  for (const std::uint64_t trigger : triggers) {
+    EXPECT_TRUE(std::ranges::any_of(spans, [&](const auto& span) {
+      return span.first <= first_of(trigger, site.events->before) &&
+             span.second >= last_of(trigger, site.events->after);
+    })) << trigger;
+  }
+}
+
+TEST_F(Events, OthersReadEveryPixelAndStamp) {
+  const fs::path packages = fs::path(ORBWATCH_SOURCE_DIR) / "build/mcap-readers/node_modules";
+  ORBWATCH_REQUIRE_FILE(packages / "@foxglove/rosmsg2-serialization");
+  RecordedMachine machine(settings());
+  for (std::uint64_t n = 1; n <= 20; ++n) machine.pass(n, n == 10);
+  machine.record_all();
+  const auto events = machine.events();
+  ASSERT_EQ(events.size(), 1U);
+  const fs::path file = events.front().folder / kEventFile;
+  std::set<std::string> expected;
+  auto topics = tests::read_recording(file);
+  for (const ReadMessage& message : topics[kThermal]) {
+    const auto [x0, y0, width, height] = RecordedMachine::kBall;
+    std::vector<std::uint16_t> samples;
+    for (int y = y0; y < y0 + height; ++y) {
+      for (int x = x0; x < x0 + width; ++x) {
+        samples.push_back(tests::painted(message.sequence, 0, x, y));
+      }
+    }
+    char line[160];
+    std::snprintf(line, sizeof line, "%s sensor_msgs/msg/Image %u %llu.%09llu %dx%d mono16 0 %d %u",
+                  kThermal, message.sequence,
+                  static_cast<unsigned long long>(message.log_time / 1'000'000'000),
+                  static_cast<unsigned long long>(message.log_time % 1'000'000'000), width, height,
+                  2 * width, hal::mcap::crc32_of(std::as_bytes(std::span(samples))));
+    expected.insert(line);
+  }
+  ::setenv("NODE_PATH", packages.c_str(), 1);
+  orbwatch::tests::Subprocess program(
+      {"/usr/bin/node", ORBWATCH_SOURCE_DIR "/tests/app/ports/recorder/read_log.mjs", file},
+      folder_ / "printed");
+  ASSERT_EQ(program.wait(), 0) << program.output();
+  std::set<std::string> read;
+  std::istringstream output(program.output());
+  for (std::string line; std::getline(output, line);) {
+    if (line.find("sensor_msgs/msg/Image") != line.npos) read.insert(line);
+  }
+  EXPECT_EQ(read.size(), last_of(10, milliseconds(40)) - first_of(10, milliseconds(50)) + 1);
+  EXPECT_EQ(read, expected);
+}
+
+TEST_F(Events, AStormOfAlarmsMakesFewEventsAndIsCounted) {
+  RecordedMachine machine(settings());
+  constexpr std::uint64_t kSets = 1000;
+  for (std::uint64_t n = 1; n <= kSets; ++n) {
+    machine.pass(n, true);
+    machine.record_all();
+  }
+  for (std::uint64_t n = kSets + 1; n <= kSets + 10; ++n) machine.pass(n);
+  machine.record_all();
+  const RecorderStatistics statistics = machine.statistics();
+  EXPECT_EQ(statistics.recordings + statistics.triggers_joined, kSets);
+  EXPECT_EQ(statistics.recordings_lost, 0U);
+  // 10 s of events of 300 ms, each 50 ms before its first trigger.
+  EXPECT_LE(statistics.recordings, 50U);
+  EXPECT_GE(statistics.recordings, 33U);
+  std::set<std::uint64_t> recorded;
+  for (const StoredEvent& event : machine.events()) {
+    auto topics = tests::read_recording(event.folder / kEventFile);
+    for (const std::uint64_t n : sequences_of(topics[kThermal])) recorded.insert(n);
+  }
+  EXPECT_EQ(Numbers(recorded.begin(), recorded.end()), sets(1, *recorded.rbegin()));
+}
+
+TEST_F(Events, PicturesThatFindNoRoomAreLostAndCountedAndNobodyWaits) {
+  RecordedMachine machine(settings());
+  machine.pass(1, true);
+  constexpr std::uint64_t kSets = 60000;
+  std::uint64_t n = 2;
+  for (; n <= kSets && machine.statistics().pictures_lost == 0; ++n) machine.pass(n, true);
+  ASSERT_GT(machine.statistics().pictures_lost, 0U) << "nothing is read";
+  EXPECT_LE(machine.statistics().ring_used, 1.0);
+  const std::uint64_t last = n + 100;
+  for (; n <= last; ++n) machine.pass(n);
+  machine.record_all();
+  EXPECT_GT(machine.statistics().recordings_lost, 0U) << "more events at once than windows";
+  for (const StoredEvent& event : machine.events()) {
+    auto topics = tests::read_recording(event.folder / kEventFile);
+    const Numbers recorded = sequences_of(topics[kThermal]);
+    EXPECT_EQ(recorded, sets(recorded.front(), recorded.back()));
+  }
+}
+
+TEST_F(Events, ColourIsJpegOfTheStatedQualityOrLosslessOnRequest) {
+  for (const bool lossless : {false, true}) {
+    RecorderSettings site = settings();
+    site.folder = folder_ / (lossless ? "lossless" : "jpeg");
+    site.events->lossless = lossless;
+    RecordedMachine machine(site);
+    for (std::uint64_t n = 1; n <= 20; ++n) machine.pass(n, n == 10);
+    machine.record_all();
+    const auto events = machine.events();
+    ASSERT_EQ(events.size(), 1U);
+    auto topics = tests::read_recording(events.front().folder / kEventFile);
+    if (lossless) {
+      const auto& pictures = topics["/orbwatch/colour/image_raw"];
+      ASSERT_FALSE(pictures.empty());
+      hal::recording::Image image;
+      ASSERT_TRUE(hal::mcap::decode_cdr(pictures.front().bytes, image));
+      EXPECT_EQ(image.encoding, "nv12");
+      const auto value = static_cast<std::byte>(60 + pictures.front().sequence % 100);
+      EXPECT_TRUE(std::ranges::all_of(image.data, [&](std::byte b) { return b == value; }));
+      continue;
+    }
+    const auto& pictures = topics[kColour];
+    ASSERT_FALSE(pictures.empty());
+    hal::recording::CompressedImage image;
+    ASSERT_TRUE(hal::mcap::decode_cdr(pictures.front().bytes, image));
+    EXPECT_EQ(image.format, hal::recording::kColourJpeg);
+    const auto size = hal::JpegDecoder().read_size(image.data);
+    ASSERT_TRUE(size) << size.error().message;
+    EXPECT_EQ(size->width, RecordedMachine::kWidth);
+    EXPECT_EQ(size->height, RecordedMachine::kHeight);
+  }
+}
+
+TEST_F(Events, TheSummaryHasTheCircumstancesOfTheTrigger) {
+  RecordedMachine machine(settings());
+  for (std::uint64_t n = 1; n <= 20; ++n) machine.pass(n, n == 10);
+  machine.record_all();
+  const auto events = machine.events();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_THAT(events.front().name, testing::EndsWith("Z-alarm"));
+  const auto summary = read_summary(events.front().folder);
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_EQ(summary->trigger, "alarm");
+  EXPECT_THAT(summary->text, testing::HasSubstr("raised"));
+  EXPECT_EQ(summary->part, "Flügel 7");
+  EXPECT_EQ(summary->layer, 12);
+  EXPECT_EQ(summary->frame_set, 10U);
+  const auto topics = tests::read_recording(events.front().folder / kEventFile);
+  const auto utc_of = [&](std::uint64_t set) {
+    for (const ReadMessage& message : topics.at(kThermal)) {
+      if (message.sequence != set) continue;
+      return utc_text(Utc(std::chrono::nanoseconds(message.log_time))).value_or("");
+    }
+    return std::string("not recorded");
+  };
+  EXPECT_EQ(summary->first, utc_of(first_of(10, milliseconds(50))));
+  EXPECT_EQ(summary->triggered, utc_of(10));
+  EXPECT_EQ(summary->last, utc_of(last_of(10, milliseconds(40))));
+  EXPECT_EQ(summary->versions.front(), std::pair(std::string("orbwatch"), std::string("0.1.0")));
+}
+
+TEST_F(Events, AnUnknownMachineStateIsNoEdge) {
+  RecordedMachine machine(settings());
+  machine.status.machine.values.laser_on = 1;
+  machine.status.machine.values.layer = 3;
+  for (std::uint64_t n = 1; n <= 5; ++n) machine.pass(n);
+  machine.status.machine.values = {};
+  for (std::uint64_t n = 6; n <= 10; ++n) machine.pass(n);
+  machine.status.machine.values.laser_on = 1;
+  machine.status.machine.values.layer = 3;
+  for (std::uint64_t n = 11; n <= 30; ++n) machine.pass(n);
+  machine.record_all();
+  EXPECT_TRUE(machine.events().empty());
+  machine.status.machine.values.layer = 4;
+  for (std::uint64_t n = 31; n <= 50; ++n) machine.pass(n);
+  machine.record_all();
+  ASSERT_EQ(machine.events().size(), 1U);
+  EXPECT_THAT(machine.events().front().name, testing::EndsWith("Z-layer"));
+}
+
+TEST_F(Events, AnEventThatCannotBeWrittenIsCountedAndTheNextOneIsRecorded) {
+  const RecorderSettings site = settings();
+  RecordedMachine machine(site);
+  const fs::path events = site.folder / "events";
+  fs::create_directories(site.folder);
+  std::ofstream(events) << "in the way";
+  for (std::uint64_t n = 1; n <= 10; ++n) machine.pass(n, n == 5);
+  ASSERT_FALSE(machine.record());
+  machine.recorder().give_up();
+  EXPECT_EQ(machine.statistics().recordings_lost, 1U);
+  fs::remove(events);
+  for (std::uint64_t n = 11; n <= 40; ++n) machine.pass(n, n == 20);
+  machine.record_all();
+  EXPECT_EQ(machine.statistics().recordings, 1U);
+  EXPECT_EQ(machine.events().size(), 1U);
+}
+
+TEST_F(Events, TheEndOfTheRecorderKeepsWhatIsThere) {
+  RecordedMachine machine(settings());
+  for (std::uint64_t n = 1; n <= 10; ++n) machine.pass(n, n == 9);
+  machine.record_all();
+  ASSERT_TRUE(machine.recorder().end());
+  const auto events = machine.events();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_TRUE(events.front().is_finished);
+  const auto summary = read_summary(events.front().folder);
+  ASSERT_TRUE(summary);
+  EXPECT_TRUE(summary->is_interrupted);
+  auto topics = tests::read_recording(events.front().folder / kEventFile);
+  EXPECT_EQ(sequences_of(topics[kThermal]), sets(first_of(9, milliseconds(50)), 10));
+}
+
+}  // namespace
+}  // namespace orbwatch::app::recorder
