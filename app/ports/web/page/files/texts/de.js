@@ -186,6 +186,8 @@ export const texts = {
     views: "Ansicht",
     snapshot: "Ein Bild in den Ordner für Aufnahmen schreiben",
     select_view: "Als gewählte Ansicht veröffentlichen",
+    recording: "Aufzeichnung",
+    record_event: "Ein Ereignis um diesen Moment aufzeichnen",
     lines: "Triggerleitung",
     line: "Index der Leitung trigger_out",
     pulse: "Impuls ausgeben",

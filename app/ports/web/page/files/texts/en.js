@@ -180,6 +180,8 @@ export const texts = {
     views: "View",
     snapshot: "Write a picture into the snapshot folder",
     select_view: "Publish as the selected view",
+    recording: "Recording",
+    record_event: "Record an event around this moment",
     lines: "Trigger line",
     line: "Index of the trigger_out line",
     pulse: "Emit a pulse",

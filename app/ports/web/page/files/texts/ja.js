@@ -178,6 +178,8 @@ export const texts = {
     views: "ビュー",
     snapshot: "スナップショットのフォルダーに画像を保存",
     select_view: "選択ビューとして配信",
+    recording: "記録",
+    record_event: "この前後のイベントを記録",
     lines: "トリガー線",
     line: "trigger_out の線の番号",
     pulse: "パルスを出力",
