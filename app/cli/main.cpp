@@ -36,6 +36,7 @@ constexpr std::array kCommandTable{
                list_command},
     Subcommand{"doctor", "check this board: what is wrong, and what mends it", doctor_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
+    Subcommand{"events", "list, show, pin and delete recorded events", events_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},
     Subcommand{"bench", "whether this computer does the work of a configuration", bench_command},
     Subcommand{"describe", "print manuals, and what follows from a rig or a view",

@@ -2,7 +2,7 @@
 _orbwatch() {
   local words="" line="${COMP_WORDS[*]:1:COMP_CWORD-1} "
   case $line in
-    " ") words="project advise setup detect register place drift calibration subscribe state command password dds-keys list doctor configure lines bench describe --help --version" ;;
+    " ") words="project advise setup detect register place drift calibration subscribe state command password dds-keys list doctor configure events lines bench describe --help --version" ;;
     "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
     "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
     "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --page --force --json --help" ;;
@@ -13,12 +13,13 @@ _orbwatch() {
     "calibration "*) words="--config --json --help" ;;
     "subscribe "*) words="--topic --domain --prefix --security --save --seconds --count --stats --each --json --help" ;;
     "state "*) words="--json --follow --domain --prefix --security --timeout --help" ;;
-    "command "*) words="--domain --prefix --security --timeout --help select_view pulse start stop select_recipe point_view mix_sources trigger acknowledge_alarm snapshot set_process_active restart detect_ball register_camera correct_alignment accept_alignment discard_alignment learn_clean_ball mark_point forget_points place_camera move_outline shape_outline turn_camera undo_alignment revert_alignment pick_pixel set_colour_map set_colour_range forget_point cancel_alignment" ;;
+    "command "*) words="--domain --prefix --security --timeout --help select_view pulse start stop select_recipe point_view mix_sources trigger acknowledge_alarm snapshot set_process_active restart detect_ball register_camera correct_alignment accept_alignment discard_alignment learn_clean_ball mark_point forget_points place_camera move_outline shape_outline turn_camera undo_alignment revert_alignment pick_pixel set_colour_map set_colour_range forget_point cancel_alignment record_event" ;;
     "password "*) words="--config --role --show --help" ;;
     "dds-keys "*) words="--subscriber --read-only --domain --prefix --days --replace --help" ;;
     "list "*) words="--json --appliances --seconds --domain --security --help" ;;
     "doctor "*) words="--config --json --help" ;;
     "configure "*) words="--config --seconds --dry-run --confirm --cancel --help" ;;
+    "events "*) words="--config --folder --json --help" ;;
     "lines "*) words="--safe --config --help" ;;
     "bench "*) words="--config --seconds --simulated --json --help" ;;
     "describe config"*) words="--help" ;;
