@@ -33,6 +33,15 @@ std::unique_ptr<Sink> made(std::unique_ptr<Sink> (*make)(const Settings&, const 
   return make(settings, std::get<Parts>(parts)...);
 }
 
+/// Null: no events are recorded.
+std::shared_ptr<RecordedEvents> make_events(const files::SinkSettings& sinks) {
+  std::shared_ptr<RecordedEvents> events;
+  files::for_each_sink(sinks, [&events](const auto& settings) {
+    if constexpr (requires { recorded_events(settings); }) events = recorded_events(settings);
+  });
+  return events;
+}
+
 PageContext page_context(const files::Resolved& site, const SitePlan& plan,
                          AlignmentSource* alignment, Program program) {
   return {.ball = plan.scene.ball,
@@ -40,6 +49,7 @@ PageContext page_context(const files::Resolved& site, const SitePlan& plan,
           .balls = camera_balls(site),
           .recipes = measured_recipes(site, plan),
           .alignment = alignment,
+          .events = make_events(site.site.sinks),
           .state_folder = site.state_folder,
           .program = std::move(program)};
 }

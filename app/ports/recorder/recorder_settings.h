@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/model/sink/recorded_camera.h"
+#include "app/model/sink/recorded_events.h"
 #include "app/model/sink/recorded_texts.h"
 #include "app/model/sink/sink.h"
 #include "app/model/status/status_report.h"
@@ -49,6 +50,9 @@ void visit(Visitor& v, RecorderSettings& recorder) {
 /// Checks that the ring holds an event. Error: as recorder::check_ring(). Reentrant.
 Result<> check_recorded(const RecorderSettings& settings,
                         const std::vector<RecordedCamera>& cameras);
+
+/// Events that are recorded by these settings, for other interfaces; null: none are.
+std::shared_ptr<RecordedEvents> recorded_events(const RecorderSettings& settings);
 
 /// Null without a folder. `cameras` by index.
 std::unique_ptr<Sink> make_sink(const RecorderSettings& settings, const StatusNames& names,

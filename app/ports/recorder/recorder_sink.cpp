@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/ports/recorder/events/event_archive.h"
 #include "app/ports/recorder/events/ring_size.h"
 
 namespace orbwatch::app {
@@ -219,6 +220,11 @@ std::vector<InterfaceMetric> RecorderSink::metrics() const {
 Result<> check_recorded(const RecorderSettings& settings,
                         const std::vector<RecordedCamera>& cameras) {
   return settings.events ? recorder::check_ring(*settings.events, cameras) : Result<>();
+}
+
+std::shared_ptr<RecordedEvents> recorded_events(const RecorderSettings& settings) {
+  if (settings.folder.empty() || !settings.events) return nullptr;
+  return std::make_shared<recorder::EventArchive>(settings.folder);
 }
 
 std::unique_ptr<Sink> make_sink(const RecorderSettings& settings, const StatusNames& names,

@@ -20,6 +20,7 @@
 #include "app/ports/web/machine/machine_desk.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
+#include "app/ports/web/recordings/recording_routes.h"
 #include "app/ports/web/status/openapi.h"
 #include "app/ports/web/status/status_routes.h"
 #include "app/ports/web/streams/live_stream.h"
@@ -229,6 +230,24 @@ std::vector<Route> plant_routes(const RouteOwners& of) {
   };
 }
 
+std::vector<Route> recording_routes(const RouteOwners& of) {
+  return {
+      get<&RecordingRoutes::list, RecordingsAnswer>(
+          "/api/v1/recordings", Viewer, of.recordings,
+          "Returns the recorder's events, each with the cameras' pictures from before and after a "
+          "trigger"),
+      get<&RecordingRoutes::picture>("/api/v1/recordings/trigger.jpg", Viewer, of.recordings,
+                                     "Returns the picture of an event's trigger", kJpeg),
+      get<&RecordingRoutes::recording>(
+          "/api/v1/recordings/event.mcap", Viewer, of.recordings,
+          "Returns an event as an MCAP file in the definitions of ROS 2", kMcap),
+      post<&RecordingRoutes::pin>("/api/v1/pin_recording", Operator, of.recordings, of.file_changes,
+                                  "Protects an event from being deleted for room, or ends that"),
+      post<&RecordingRoutes::remove>("/api/v1/remove_recording", Integrator, of.recordings,
+                                     of.file_changes, "Deletes an event, also a pinned one"),
+  };
+}
+
 /// One route for each of kCommands, and one for the states of the machine.
 std::vector<Route> command_routes(const RouteOwners& of) {
   std::vector<Route> routes;
@@ -243,7 +262,7 @@ std::vector<Route> command_routes(const RouteOwners& of) {
 std::vector<Route> routes_of(const RouteOwners& owners) {
   std::vector<Route> all{description_route()};
   for (auto* part : {status_routes, picture_routes, alignment_routes, access_routes,
-                     configuration_routes, plant_routes, command_routes}) {
+                     configuration_routes, plant_routes, recording_routes, command_routes}) {
     std::ranges::move(part(owners), std::back_inserter(all));
   }
   return all;

@@ -20,6 +20,7 @@ class LookAround;
 class MachineDesk;
 class PixelRoute;
 class RecipeRoutes;
+class RecordingRoutes;
 class StatusRoutes;
 class StreamRoutes;
 class ViewList;
@@ -43,6 +44,7 @@ struct RouteOwners {
   FleetRoutes* fleet = nullptr;
   CommandDesk* commands = nullptr;
   const MachineDesk* machine = nullptr;
+  RecordingRoutes* recordings = nullptr;
 };
 
 /// The whole HTTP interface without the page's files: a line for each route, and one for all

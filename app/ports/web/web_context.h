@@ -22,6 +22,7 @@ namespace orbwatch::app {
 
 class AlignmentSource;
 class Fleet;
+class RecordedEvents;
 
 /// Parts of the appliance that only the page shows.
 struct PageContext {
@@ -29,10 +30,11 @@ struct PageContext {
   optics::SceneProxy scene;  ///< around it
   /// The room in each camera's whole picture, by camera; null: not to be looked around in.
   std::vector<std::shared_ptr<const optics::ViewProjection>> balls;
-  std::vector<MeasuredRecipe> recipes;   ///< what is measured
-  AlignmentSource* alignment = nullptr;  ///< outlives the sink's run; null: none
-  std::filesystem::path state_folder;    ///< of what must outlast a restart; empty: no users
-  Program program;                       ///< around the appliance
+  std::vector<MeasuredRecipe> recipes;               ///< what is measured
+  AlignmentSource* alignment = nullptr;              ///< outlives the sink's run; null: none
+  std::shared_ptr<RecordedEvents> events = nullptr;  ///< null: none are recorded
+  std::filesystem::path state_folder;  ///< of what must outlast a restart; empty: no users
+  Program program;                     ///< around the appliance
   /// Tables about all sinks; callable on any thread while they run. Empty function: none.
   std::function<std::vector<InterfaceTable>()> tables = nullptr;
   /// Counters of all sinks, under the same rule.

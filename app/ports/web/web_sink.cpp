@@ -46,6 +46,7 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       configuration_(context.program.files, audit_, file_changes_),
       interfaces_(context.tables, context.program),
       fleet_(context.fleet),
+      recordings_(context.events, file_changes_),
       routes_(make_routes()),
       listeners_(
           settings_, context.state_folder,
@@ -57,7 +58,7 @@ std::vector<web::Route> WebSink::make_routes() {
   std::vector<web::Route> routes =
       web::routes_of({&status_, &streams_, &list_, &pixels_, &desk_, &access_changes_,
                       &look_around_, &configuration_, &file_changes_, &log_, &alignment_, &recipe_,
-                      &history_, &interfaces_, &fleet_, &commands_, &machine_});
+                      &history_, &interfaces_, &fleet_, &commands_, &machine_, &recordings_});
   std::ranges::move(web::page_routes(), std::back_inserter(routes));
   return routes;
 }

@@ -25,6 +25,7 @@
 #include "app/ports/web/machine/machine_desk.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
+#include "app/ports/web/recordings/recording_routes.h"
 #include "app/ports/web/status/status_routes.h"
 #include "app/ports/web/status/web_statistics.h"
 #include "app/ports/web/streams/stream_routes.h"
@@ -90,6 +91,7 @@ class WebSink final : public Sink {
   web::ConfigurationDesk configuration_;
   web::InterfaceRoutes interfaces_;
   web::FleetRoutes fleet_;
+  web::RecordingRoutes recordings_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
   hal::Thread thread_;  ///< ends overdue connections, reports to streams, keeps history

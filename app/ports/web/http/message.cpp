@@ -43,6 +43,13 @@ Response body_response(std::string_view type, std::string body, int status) {
   return body_response(type, std::make_shared<const std::string>(std::move(body)), status);
 }
 
+Response file_response(std::string_view type, std::shared_ptr<const OpenFile> file) {
+  Response response;
+  response.type = type;
+  response.file = std::move(file);
+  return response;
+}
+
 Response json_response(std::string text, int status) {
   return body_response(kJson, std::move(text) + "\n", status);
 }

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/ports/web/http/open_file.h"
+
 namespace orbwatch::app::web {
 
 /// Names and values in the order sent.
@@ -59,11 +61,12 @@ inline constexpr std::string_view kJson = "application/json";
 inline constexpr std::string_view kJpeg = "image/jpeg";
 inline constexpr std::string_view kText = "text/plain; charset=utf-8";
 
-/// An answer; with a stream it has no other body.
+/// An answer, with one body of three kinds.
 struct Response {
   int status = 200;
   std::string type{kJson};
   Bytes body;
+  std::shared_ptr<const OpenFile> file{};
   std::string tag{};  ///< entity_tag() of the content, if clients may keep it; empty: they may not
   std::shared_ptr<Stream> stream;
   Values headers;  ///< in addition to those of every answer
@@ -73,6 +76,7 @@ struct Response {
 
 Response body_response(std::string_view type, Bytes body, int status = 200);
 Response body_response(std::string_view type, std::string body, int status = 200);
+Response file_response(std::string_view type, std::shared_ptr<const OpenFile> file);
 Response json_response(std::string text, int status = 200);
 /// Response with the body {"error": what}.
 Response error_response(int status, const std::string& what);

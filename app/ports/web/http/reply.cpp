@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/http/reply.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <array>
 #include <utility>
 
@@ -60,9 +63,19 @@ void end_stream(void* body) {
 
 void release_bytes(void* bytes) { delete static_cast<Bytes*>(bytes); }
 
+/// Null: out of memory, or of files. libmicrohttpd closes its own descriptor.
+Reply file_reply(const OpenFile& opened) {
+  const int file = ::fcntl(opened.file.get(), F_DUPFD_CLOEXEC, 0);
+  if (file < 0) return nullptr;
+  Reply reply(::MHD_create_response_from_fd64(opened.size, file));
+  if (!reply) ::close(file);
+  return reply;
+}
+
 }  // namespace
 
 Reply make_reply(const Response& response, const Values& more) {
+  if (response.file) return with_headers(file_reply(*response.file), response, more);
   if (!response.body) {
     return with_headers(
         Reply(::MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT)), response,

@@ -12,6 +12,7 @@ import { Notices } from "./notices.js";
 import { Operator } from "./process/operator.js";
 import { Process } from "./process/process.js";
 import { Recipe } from "./process/recipe.js";
+import { Recordings } from "./recordings/recordings.js";
 import { admit, askAgain } from "./system/access.js";
 import { Fleet } from "./system/fleet.js";
 import { System } from "./system/system.js";
@@ -77,6 +78,7 @@ const kTabs = [
   { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
   { name: "process",
     make: (section) => new Process(section, faults, recipe, figures, isAtLeast("integrator"), choose) },
+  { name: "recordings", make: (section) => new Recordings(section, isAtLeast) },
   { name: "system", make: (section) => new System(section, views, recipe, figures, session) },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];

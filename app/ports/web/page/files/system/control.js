@@ -33,7 +33,6 @@ export class Control {
       this.#group(control.recipes, [choice(control.recipe, this.recipe)], [["select_recipe"]]),
       this.#group(control.views, [choice(texts.process.view, this.view)],
         [["snapshot"], ["select_view"]]),
-      this.#group(control.recording, [], [["record_event"]]),
       ...(isIntegrator ? [
         this.#group(control.lines, [number(control.line, "line", 0)], [["pulse"]]),
         this.#group(control.service, [], [["restart"]])] : [])), this.said);

@@ -5,7 +5,8 @@ export { words } from "./de_words.js";
 const fixed = (value, decimals) => value.toFixed(decimals).replace(".", ",");
 
 export const texts = {
-  pages: { live: "Live", look: "Umsehen", align: "Ausrichten", process: "Prozess", system: "System",
+  pages: { live: "Live", look: "Umsehen", align: "Ausrichten", process: "Prozess",
+    recordings: "Aufzeichnungen", system: "System",
     fleet: "Geräte", operator: "Bediener" },
   navigation: "Seiten",
   language: "Sprache",
@@ -186,8 +187,6 @@ export const texts = {
     views: "Ansicht",
     snapshot: "Ein Bild in den Ordner für Aufnahmen schreiben",
     select_view: "Als gewählte Ansicht veröffentlichen",
-    recording: "Aufzeichnung",
-    record_event: "Ein Ereignis um diesen Moment aufzeichnen",
     lines: "Triggerleitung",
     line: "Index der Leitung trigger_out",
     pulse: "Impuls ausgeben",
@@ -313,6 +312,27 @@ export const texts = {
     yaw: "Gierwinkel, °",
     pitch: "Nickwinkel, °",
     h_fov: "Breite, °",
+  },
+  recordings: {
+    kinds: { alarm: "Alarm", command: "Auf Befehl", laser_on: "Der Laser ging an", layer: "Die Lage wechselte" },
+    record: "Aufzeichnen, was jetzt geschieht",
+    all: "alle",
+    filters: { kind: "Ursache", part: "Teil enthält", layer: "Lage", since: (zone) => `Seit (${zone})` },
+    missing: (key) => `Es werden keine Ereignisse aufgezeichnet: setzen Sie ${key} in der Konfigurationsdatei.`,
+    count: (shown, all) => (shown === all ? `${all} ${all === 1 ? "Ereignis" : "Ereignisse"}`
+      : `${shown} von ${all} Ereignissen`),
+    machine: (part, layer) => [part ? `Teil ${part}` : "", layer === null ? "" : `Lage ${layer}`]
+      .filter(Boolean).join(", "),
+    about: (pictures, mebibytes) => `${pictures} ${pictures === 1 ? "Bild" : "Bilder"}, ` +
+      `${mebibytes.toFixed(1).replace(".", ",")} MiB`,
+    picture: (cause) => `Bild des Auslösers: ${cause}`,
+    unfinished: "Es wird gerade aufgezeichnet.",
+    interrupted: "Es wurde unterbrochen.",
+    noBeginning: "Bilder vor dem Auslöser fehlen.",
+    lost: (count) => `${count} Bilder fanden keinen Platz.`,
+    pin: "Behalten",
+    unpin: "Nicht mehr behalten",
+    removeAsks: (cause) => `Dieses Ereignis endgültig löschen? ${cause}`,
   },
   fleet: {
     count: (all, gone, alarming, isFull) => [

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // All texts of the page itself, in English.
 export const texts = {
-  pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System",
+  pages: { live: "Live", look: "Look around", align: "Align", process: "Process",
+    recordings: "Recordings", system: "System",
     fleet: "Appliances", operator: "Operator" },
   navigation: "Pages",
   language: "Language",
@@ -180,8 +181,6 @@ export const texts = {
     views: "View",
     snapshot: "Write a picture into the snapshot folder",
     select_view: "Publish as the selected view",
-    recording: "Recording",
-    record_event: "Record an event around this moment",
     lines: "Trigger line",
     line: "Index of the trigger_out line",
     pulse: "Emit a pulse",
@@ -305,6 +304,26 @@ export const texts = {
     yaw: "Yaw, °",
     pitch: "Pitch, °",
     h_fov: "Width, °",
+  },
+  recordings: {
+    kinds: { alarm: "Alarm", command: "By command", laser_on: "The laser went on", layer: "The layer changed" },
+    record: "Record what happens now",
+    all: "all",
+    filters: { kind: "Cause", part: "Part contains", layer: "Layer", since: (zone) => `Since (${zone})` },
+    missing: (key) => `No events are recorded: set ${key} in the configuration file.`,
+    count: (shown, all) => (shown === all ? `${all} ${all === 1 ? "event" : "events"}` : `${shown} of ${all} events`),
+    machine: (part, layer) => [part ? `part ${part}` : "", layer === null ? "" : `layer ${layer}`]
+      .filter(Boolean).join(", "),
+    about: (pictures, mebibytes) => `${pictures} ${pictures === 1 ? "picture" : "pictures"}, ` +
+      `${mebibytes.toFixed(1)} MiB`,
+    picture: (cause) => `Picture of the trigger: ${cause}`,
+    unfinished: "It is being recorded.",
+    interrupted: "It was interrupted.",
+    noBeginning: "Pictures before the trigger are missing.",
+    lost: (count) => `${count} pictures found no room.`,
+    pin: "Keep",
+    unpin: "Do not keep",
+    removeAsks: (cause) => `Delete this event for ever? ${cause}`,
   },
   fleet: {
     count: (all, gone, alarming, isFull) => [

@@ -3,7 +3,8 @@
 export { words } from "./ja_words.js";
 
 export const texts = {
-  pages: { live: "ライブ", look: "見回す", align: "位置合わせ", process: "プロセス", system: "システム",
+  pages: { live: "ライブ", look: "見回す", align: "位置合わせ", process: "プロセス",
+    recordings: "記録", system: "システム",
     fleet: "装置一覧", operator: "オペレーター" },
   navigation: "ページ",
   language: "言語",
@@ -178,8 +179,6 @@ export const texts = {
     views: "ビュー",
     snapshot: "スナップショットのフォルダーに画像を保存",
     select_view: "選択ビューとして配信",
-    recording: "記録",
-    record_event: "この前後のイベントを記録",
     lines: "トリガー線",
     line: "trigger_out の線の番号",
     pulse: "パルスを出力",
@@ -299,6 +298,25 @@ export const texts = {
     yaw: "ヨー、°",
     pitch: "ピッチ、°",
     h_fov: "幅、°",
+  },
+  recordings: {
+    kinds: { alarm: "アラーム", command: "コマンドによる", laser_on: "レーザーがオンになった", layer: "層が変わった" },
+    record: "今の状況を記録",
+    all: "すべて",
+    filters: { kind: "原因", part: "部品名に含む", layer: "層", since: (zone) => `開始日時 (${zone})` },
+    missing: (key) => `イベントは記録されていません。設定ファイルで ${key} を設定してください。`,
+    count: (shown, all) => (shown === all ? `イベント ${all} 件` : `イベント ${all} 件中 ${shown} 件`),
+    machine: (part, layer) => [part ? `部品 ${part}` : "", layer === null ? "" : `層 ${layer}`]
+      .filter(Boolean).join("、"),
+    about: (pictures, mebibytes) => `画像 ${pictures} 枚、${mebibytes.toFixed(1)} MiB`,
+    picture: (cause) => `トリガーの画像: ${cause}`,
+    unfinished: "記録中です。",
+    interrupted: "中断されました。",
+    noBeginning: "トリガー前の画像がありません。",
+    lost: (count) => `${count} 枚の画像は入りきりませんでした。`,
+    pin: "保存する",
+    unpin: "保存を解除",
+    removeAsks: (cause) => `このイベントを完全に削除しますか? ${cause}`,
   },
   fleet: {
     count: (all, gone, alarming, isFull) => [

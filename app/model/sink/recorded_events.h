@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proc/image/result.h"
+#include "proc/signals/signals.h"
+
+namespace orbwatch::app {
+
+/// An event on the disk: pictures of the cameras from before and after a trigger.
+struct RecordedEvent {
+  std::string name;                    ///< unique, for requests
+  std::string trigger;                 ///< name of the trigger's kind
+  std::string text;                    ///< cause for operators, one line
+  std::string first, triggered, last;  ///< UTC of frame sets; empty: not known
+  std::string part;                    ///< empty: not known
+  double layer = signals::kNotValid;   ///< of the part
+  std::uint64_t pictures = 0;          ///< of all cameras
+  std::uint64_t lost = 0;              ///< pictures that found no room
+  std::uint64_t bytes = 0;
+  bool is_pinned = false;       ///< it is not deleted for room
+  bool is_finished = true;      ///< false: it is being recorded, or the power failed meanwhile
+  bool has_beginning = true;    ///< false: pictures before the trigger are missing
+  bool is_interrupted = false;  ///< it was not recorded to its end
+};
+
+/// The events of the recorder, for other interfaces. Each call waits for the disk. Thread-safe.
+class RecordedEvents {
+ public:
+  virtual ~RecordedEvents() = default;
+  /// The oldest first. Error: the folder cannot be read.
+  virtual Result<std::vector<RecordedEvent>> list() const = 0;
+
+  // Errors: no such event, or the disk.
+
+  /// The recording, an MCAP file.
+  virtual Result<std::filesystem::path> recording(std::string_view event) const = 0;
+  /// The picture of the trigger, a JPEG file.
+  virtual Result<std::filesystem::path> picture(std::string_view event) const = 0;
+  virtual Result<> set_pinned(std::string_view event, bool is_pinned) = 0;
+  virtual Result<> remove(std::string_view event) = 0;
+};
+
+}  // namespace orbwatch::app

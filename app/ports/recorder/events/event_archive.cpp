@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/recorder/events/event_archive.h"
+
+#include <string>
+#include <utility>
+
+#include "app/ports/recorder/events/event_summary.h"
+
+namespace orbwatch::app::recorder {
+namespace {
+
+/// Without a summary, which another program may have damaged, only what the folder says.
+RecordedEvent recorded(const StoredEvent& stored) {
+  RecordedEvent event;
+  event.name = stored.name;
+  event.bytes = stored.bytes;
+  event.is_pinned = stored.is_pinned;
+  event.is_finished = stored.is_finished;
+  auto summary = read_summary(stored.folder);
+  if (!summary) {
+    event.text = summary.error().message;
+    return event;
+  }
+  event.trigger = std::move(summary->trigger);
+  event.text = std::move(summary->text);
+  event.first = std::move(summary->first);
+  event.triggered = std::move(summary->triggered);
+  event.last = std::move(summary->last);
+  event.part = std::move(summary->part);
+  event.layer = summary->layer;
+  for (const auto& [camera, pictures] : summary->pictures) event.pictures += pictures;
+  event.lost = summary->lost;
+  event.has_beginning = summary->has_beginning;
+  event.is_interrupted = summary->is_interrupted;
+  return event;
+}
+
+}  // namespace
+
+Result<std::vector<RecordedEvent>> EventArchive::list() const {
+  return folder_.list().map([](const std::vector<StoredEvent>& stored) {
+    std::vector<RecordedEvent> events;
+    events.reserve(stored.size());
+    for (const StoredEvent& one : stored) events.push_back(recorded(one));
+    return events;
+  });
+}
+
+Result<StoredEvent> EventArchive::finished(std::string_view event) const {
+  return folder_.find(event).and_then([](StoredEvent stored) -> Result<StoredEvent> {
+    if (!stored.is_finished) return fail("the event " + stored.name + " is being recorded");
+    return stored;
+  });
+}
+
+Result<std::filesystem::path> EventArchive::recording(std::string_view event) const {
+  return finished(event).map([](const StoredEvent& stored) { return stored.folder / kEventFile; });
+}
+
+Result<std::filesystem::path> EventArchive::picture(std::string_view event) const {
+  return finished(event).map(
+      [](const StoredEvent& stored) { return stored.folder / kEventPicture; });
+}
+
+Result<> EventArchive::set_pinned(std::string_view event, bool is_pinned) {
+  return finished(event).and_then([is_pinned](const StoredEvent& stored) {
+    return EventFolder::set_pinned(stored, is_pinned);
+  });
+}
+
+Result<> EventArchive::remove(std::string_view event) {
+  return finished(event).and_then(
+      [this](const StoredEvent& stored) { return folder_.remove(stored); });
+}
+
+}  // namespace orbwatch::app::recorder

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Events with the cameras' pictures from before and after a trigger, kept by the recorder.
+import { command, post } from "../appliance/api.js";
+import { momentText, timeZone } from "../elements/clock.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kAgainMs = 2000;
+const kKinds = ["alarm", "command", "laser_on", "layer"];
+const kMebibyte = 2 ** 20;
+
+const pathOf = (file, name) => `api/v1/recordings/${file}?${new URLSearchParams({ event: name })}`;
+
+function button(label, act) {
+  const made = element("button", { type: "button" }, label);
+  made.addEventListener("click", act);
+  return made;
+}
+
+// One event, updated in place. `change(path, body)` requests a change.
+class Card {
+  constructor({ name }, change, may) {
+    const said = texts.recordings;
+    this.name = name;
+    this.picture = element("img", { width: 160, loading: "lazy", hidden: true });
+    this.cause = element("h3");
+    this.when = element("p");
+    this.machine = element("p");
+    this.about = element("p", { className: "quiet" });
+    this.wrong = element("p", { className: "wrong" });
+    this.pin = button("", () => change("pin_recording", { event: name, is_pinned: !this.isPinned }));
+    this.save = element("a", { className: "button", download: `${name}.mcap`, href: pathOf("event.mcap", name) },
+      texts.download);
+    const remove = button(texts.remove, () =>
+      confirm(said.removeAsks(this.cause.textContent)) && change("remove_recording", { event: name }));
+    this.root = element("li", { className: "appliance" }, this.picture,
+      element("div", {}, this.cause, this.when, this.machine, this.wrong, this.about,
+        element("p", { className: "buttons" }, may("operator") ? this.pin : "", this.save,
+          may("integrator") ? remove : "")));
+  }
+
+  show(event) {
+    const said = texts.recordings;
+    this.isPinned = event.is_pinned;
+    setText(this.cause, event.trigger === "alarm" ? event.cause : said.kinds[event.trigger] ?? event.cause);
+    setText(this.when, momentText(event.triggered || event.first));
+    setText(this.machine, said.machine(event.part, event.layer));
+    setText(this.about, said.about(event.pictures, event.bytes / kMebibyte));
+    setText(this.wrong, [event.is_finished ? "" : said.unfinished, event.is_interrupted ? said.interrupted : "",
+      event.has_beginning ? "" : said.noBeginning, event.lost > 0 ? said.lost(event.lost) : ""]
+      .filter(Boolean).join(" "));
+    setText(this.pin, event.is_pinned ? said.unpin : said.pin);
+    this.pin.disabled = !event.is_finished;
+    this.save.hidden = !event.is_finished;
+    if (event.is_finished && this.picture.hidden) this.#showPicture();
+  }
+
+  #showPicture() {
+    this.picture.hidden = false;
+    this.picture.alt = texts.recordings.picture(this.cause.textContent);
+    this.picture.addEventListener("error", () => { this.picture.hidden = true; }, { once: true });
+    this.picture.src = pathOf("trigger.jpg", this.name);
+  }
+}
+
+export class Recordings {
+  #cards = new Map();  // by name
+  #events = [];
+  #again = 0;
+
+  // `may(role)`: true if the user may do what the role may.
+  constructor(root, may) {
+    Object.assign(this, { root, may });
+    this.said = element("p", { role: "status" });
+    this.refused = element("p", { role: "alert", className: "wrong" });
+    this.record = button(texts.recordings.record, () => this.#tell(command("record_event", {})));
+    this.kind = element("select", { name: "kind" }, element("option", { value: "" }, texts.recordings.all),
+      ...kKinds.map((kind) => element("option", { value: kind }, texts.recordings.kinds[kind])));
+    this.part = element("input", { name: "part", type: "search" });
+    this.layer = element("input", { name: "layer", type: "number", step: 1 });
+    this.since = element("input", { name: "since", type: "datetime-local" });
+    this.filters = element("form", { className: "buttons" },
+      ...[["kind", this.kind], ["part", this.part], ["layer", this.layer]].map(([name, input]) =>
+        element("label", {}, texts.recordings.filters[name], " ", input)),
+      element("label", {}, texts.recordings.filters.since(timeZone), " ", this.since));
+    this.filters.addEventListener("input", () => this.#show());
+    this.filters.addEventListener("submit", (event) => event.preventDefault());
+    this.list = element("ul", { id: "events" });
+    root.append(element("p", { className: "buttons" }, may("operator") ? this.record : ""), this.filters, this.said,
+      this.refused, this.list);
+    addEventListener("hashchange", () => this.#read());
+    this.#read();
+  }
+
+  async #tell(done) {
+    const why = await done;
+    setText(this.refused, why ? texts.refused(why) : "");
+    this.#read();
+  }
+
+  async #read() {
+    clearTimeout(this.#again);
+    if (this.root.hidden) return;
+    const answer = document.hidden ? null : await fetch("api/v1/recordings").catch(() => null);
+    const read = await answer?.json().catch(() => null);
+    if (read?.error) setText(this.said, texts.refused(read.error));
+    else if (read?.missing) setText(this.said, texts.recordings.missing(read.missing));
+    else if (read) {
+      this.#events = read.events;
+      this.#show();
+    }
+    this.record.hidden = this.filters.hidden = Boolean(read?.missing);
+    clearTimeout(this.#again);
+    this.#again = setTimeout(() => this.#read(), kAgainMs);
+  }
+
+  #isWanted({ trigger, part, layer, triggered, first }) {
+    const since = this.since.value ? Date.parse(this.since.value) : -Infinity;
+    return (!this.kind.value || trigger === this.kind.value)
+      && part.toLowerCase().includes(this.part.value.trim().toLowerCase())
+      && (!this.layer.value || layer === Number(this.layer.value))
+      && !(Date.parse(triggered || first) < since);
+  }
+
+  #show() {
+    const shown = this.#events.filter((event) => this.#isWanted(event));
+    setText(this.said, texts.recordings.count(shown.length, this.#events.length));
+    const listed = new Set(shown.map(({ name }) => name));
+    for (const [name, card] of this.#cards) {
+      if (listed.has(name)) continue;
+      card.root.remove();
+      this.#cards.delete(name);
+    }
+    shown.forEach((event, place) => {
+      const card = this.#card(event);
+      card.show(event);
+      // Moves only misplaced elements, so that focus and scroll position are kept.
+      if (this.list.children[place] !== card.root) {
+        this.list.insertBefore(card.root, this.list.children[place] ?? null);
+      }
+    });
+  }
+
+  #card(event) {
+    if (!this.#cards.has(event.name)) {
+      const change = (path, body) => this.#tell(post(`api/v1/${path}`, body));
+      this.#cards.set(event.name, new Card(event, change, this.may));
+    }
+    return this.#cards.get(event.name);
+  }
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/web/recordings/recording_routes.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/ports/web/api/json_form.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr const char* kNone = "no events are recorded: set [recorder.events]";
+
+Response listed(const std::shared_ptr<RecordedEvents>& events) {
+  RecordingsAnswer answer;
+  if (events) {
+    auto found = events->list();
+    if (!found) return error_response(503, found.error().message);
+    answer.events = std::move(*found);
+    std::ranges::reverse(answer.events);
+  } else {
+    answer.missing = "[recorder.events]";
+  }
+  return json_response(json_text(json_of(answer)));
+}
+
+/// A file of an event; 404: it is gone.
+Response sent(const Result<std::filesystem::path>& path, std::string_view type) {
+  const auto file = path.and_then(open_file);
+  return file ? file_response(type, *file) : error_response(404, file.error().message);
+}
+
+}  // namespace
+
+void RecordingRoutes::list(const ExchangePtr& exchange) const {
+  changes_.read(exchange, [events = events_] { return listed(events); });
+}
+
+void RecordingRoutes::picture(const EventQuery& query, const ExchangePtr& exchange) const {
+  changes_.read(exchange, [events = events_, event = query.event] {
+    return events ? sent(events->picture(event), kJpeg) : error_response(404, kNone);
+  });
+}
+
+void RecordingRoutes::recording(const EventQuery& query, const ExchangePtr& exchange) const {
+  changes_.read(exchange, [events = events_, event = query.event] {
+    if (!events) return error_response(404, kNone);
+    Response response = sent(events->recording(event), kMcap);
+    // An event that was found has a name of letters, digits and "-".
+    if (response.file) {
+      response.headers.emplace_back("Content-Disposition",
+                                    "attachment; filename=\"" + event + ".mcap\"");
+    }
+    return response;
+  });
+}
+
+Answered<Done> RecordingRoutes::pin(Change<PinBody>& change) const {
+  const auto& [event, is_pinned] = change.body;
+  change.after = event + (is_pinned ? " pinned" : " not pinned");
+  if (!events_) return refuse(404, kNone);
+  const auto pinned = events_->set_pinned(event, is_pinned);
+  if (!pinned) return refuse(pinned.error());
+  return Done{};
+}
+
+Answered<Done> RecordingRoutes::remove(Change<EventQuery>& change) const {
+  change.after = change.body.event + " deleted";
+  if (!events_) return refuse(404, kNone);
+  const auto removed = events_->remove(change.body.event);
+  if (!removed) return refuse(removed.error());
+  return Done{};
+}
+
+}  // namespace orbwatch::app::web

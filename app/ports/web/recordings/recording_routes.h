@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "app/ports/web/api/changes.h"
+#include "app/ports/web/api/record.h"
+#include "app/ports/web/api/route.h"
+#include "app/ports/web/recordings/recording_records.h"
+
+namespace orbwatch::app::web {
+
+/// MCAP has no registered media type.
+inline constexpr std::string_view kMcap = "application/octet-stream";
+
+/// Serves the recorder's events. Thread-safe.
+class RecordingRoutes {
+ public:
+  /// `events` null: no events are recorded. `changes`: the thread that waits for the disk; outlives
+  /// it.
+  RecordingRoutes(std::shared_ptr<RecordedEvents> events, Changes& changes)
+      : events_(std::move(events)), changes_(changes) {}
+
+  void list(const ExchangePtr& exchange) const;
+  void picture(const EventQuery& query, const ExchangePtr& exchange) const;
+  void recording(const EventQuery& query, const ExchangePtr& exchange) const;
+  Answered<Done> pin(Change<PinBody>& change) const;
+  Answered<Done> remove(Change<EventQuery>& change) const;
+
+ private:
+  const std::shared_ptr<RecordedEvents> events_;
+  Changes& changes_;
+};
+
+}  // namespace orbwatch::app::web

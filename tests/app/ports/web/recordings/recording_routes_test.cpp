@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ports/web/recordings/recording_routes.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/ports/web/served.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Events as the recorder has them, with the files of each in a folder.
+class Events : public RecordedEvents {
+ public:
+  explicit Events(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void add(const std::string& name, const std::string& recording) {
+    std::ofstream(folder_ / (name + ".mcap")) << recording;
+    std::ofstream(folder_ / (name + ".jpg")) << "picture of " << name;
+    RecordedEvent event;
+    event.name = name;
+    event.trigger = "alarm";
+    event.text = "melt pool: too large";
+    event.triggered = "2026-11-28T12:00:00Z";
+    event.part = "blade 7";
+    event.layer = 12;
+    event.bytes = recording.size();
+    events_.push_back(event);
+  }
+
+  Result<std::vector<RecordedEvent>> list() const override {
+    const std::lock_guard lock(mutex_);
+    return events_;
+  }
+  Result<std::filesystem::path> recording(std::string_view event) const override {
+    return file(event, ".mcap");
+  }
+  Result<std::filesystem::path> picture(std::string_view event) const override {
+    return file(event, ".jpg");
+  }
+  Result<> set_pinned(std::string_view event, bool is_pinned) override {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find(events_, event, &RecordedEvent::name);
+    if (found == events_.end()) return fail("there is no event of this name");
+    found->is_pinned = is_pinned;
+    return {};
+  }
+  Result<> remove(std::string_view event) override {
+    const std::lock_guard lock(mutex_);
+    const auto gone = std::erase_if(events_, [&](const auto& one) { return one.name == event; });
+    if (gone == 0) return fail("there is no event of this name");
+    return {};
+  }
+
+ private:
+  Result<std::filesystem::path> file(std::string_view event, const char* ending) const {
+    const std::lock_guard lock(mutex_);
+    const auto is_it = [&](const RecordedEvent& one) { return one.name == event; };
+    if (std::ranges::none_of(events_, is_it)) return fail("there is no event of this name");
+    return folder_ / (std::string(event) + ending);
+  }
+
+  const std::filesystem::path folder_;
+  mutable std::mutex mutex_;
+  std::vector<RecordedEvent> events_;
+};
+
+class RecordingRoutes : public Served {
+ protected:
+  void SetUp() override {
+    WebContext context = make_context();
+    context.events = events;
+    context.state_folder = folder.path();
+    serve(context);
+  }
+  void TearDown() override { sink.reset(); }  // it writes into the folder
+  void serve(const WebContext& context) {
+    sink = std::make_unique<WebSink>(on_a_free_port(), context);
+    const auto started = sink->start();
+    ASSERT_TRUE(started) << started.error().message;
+  }
+  json list() const { return json::parse(get(port(), "/api/v1/recordings").body); }
+  Answer post(const std::string& path, const json& body) const {
+    return request(port(), "POST", path, kJsonHeader, body.dump());
+  }
+
+  const orbwatch::tests::TemporaryFolder folder;
+  const std::shared_ptr<Events> events = std::make_shared<Events>(folder.path());
+};
+
+TEST_F(RecordingRoutes, ListTheNewestFirst) {
+  events->add("20261128-120000-alarm", "first");
+  events->add("20261128-130000-alarm", "second one");
+  const json all = list();
+  EXPECT_TRUE(all["missing"].is_null());
+  ASSERT_EQ(all["events"].size(), 2U);
+  const json& newest = all["events"][0];
+  EXPECT_EQ(newest["name"], "20261128-130000-alarm");
+  EXPECT_EQ(newest["cause"], "melt pool: too large");
+  EXPECT_EQ(newest["part"], "blade 7");
+  EXPECT_EQ(newest["layer"], 12);
+  EXPECT_EQ(newest["bytes"], 10);
+  EXPECT_EQ(newest["is_pinned"], false);
+}
+
+TEST_F(RecordingRoutes, SendTheFilesOfAnEvent) {
+  // Larger than the blocks and buffers of the server.
+  std::string recording(3 << 20, '\0');
+  for (std::size_t n = 0; n < recording.size(); ++n) recording[n] = static_cast<char>(n * 31 / 7);
+  events->add("e1", recording);
+  const Answer sent = get(port(), "/api/v1/recordings/event.mcap?event=e1");
+  EXPECT_EQ(sent.status, 200);
+  EXPECT_TRUE(sent.body == recording);
+  EXPECT_EQ(sent.headers.at("Content-Disposition"), "attachment; filename=\"e1.mcap\"");
+  const Answer picture = get(port(), "/api/v1/recordings/trigger.jpg?event=e1");
+  EXPECT_EQ(picture.body, "picture of e1");
+  EXPECT_EQ(picture.headers.at("Content-Type"), "image/jpeg");
+}
+
+TEST_F(RecordingRoutes, RefuseWhatIsNoEventOrHasNoFile) {
+  events->add("e1", "recording");
+  for (const char* file : {"event.mcap", "trigger.jpg"}) {
+    const std::string path = std::string("/api/v1/recordings/") + file;
+    EXPECT_EQ(get(port(), path).status, 400);
+    EXPECT_EQ(get(port(), path + "?event=..%2Fe1").status, 404);
+  }
+  std::filesystem::remove(folder.path() / "e1.jpg");
+  const Answer gone = get(port(), "/api/v1/recordings/trigger.jpg?event=e1");
+  EXPECT_EQ(gone.status, 404);
+  EXPECT_THAT(gone.body, HasSubstr("No such file"));
+  std::filesystem::create_directory(folder.path() / "e1.jpg");
+  EXPECT_THAT(get(port(), "/api/v1/recordings/trigger.jpg?event=e1").body,
+              HasSubstr("no regular file"));
+}
+
+TEST_F(RecordingRoutes, PinAndDeleteWithARecordInTheAudit) {
+  events->add("e1", "recording");
+  EXPECT_EQ(post("/api/v1/pin_recording", {{"event", "e1"}, {"is_pinned", true}}).status, 200);
+  EXPECT_EQ(list()["events"][0]["is_pinned"], true);
+  EXPECT_EQ(post("/api/v1/pin_recording", {{"event", "e2"}, {"is_pinned", true}}).status, 409);
+  EXPECT_EQ(post("/api/v1/remove_recording", {{"event", "e1"}}).status, 200);
+  EXPECT_EQ(list()["events"], json::array());
+  EXPECT_EQ(post("/api/v1/remove_recording", {{"event", "e1"}}).status, 409);
+  const json audit = json::parse(get(port(), "/api/v1/audit").body)["entries"];
+  ASSERT_GE(audit.size(), 3U);
+  EXPECT_EQ(audit[0]["after"], "e1 pinned");
+  EXPECT_EQ(audit[2]["what"], "remove_recording");
+  EXPECT_EQ(audit[2]["after"], "e1 deleted");
+}
+
+TEST_F(RecordingRoutes, SayWhichKeyIsMissingWithoutARecorder) {
+  WebContext context = make_context();
+  serve(context);
+  EXPECT_THAT(list()["missing"].get<std::string>(), HasSubstr("[recorder.events]"));
+  EXPECT_EQ(get(port(), "/api/v1/recordings/event.mcap?event=e1").status, 404);
+  EXPECT_EQ(post("/api/v1/remove_recording", {{"event", "e1"}}).status, 404);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

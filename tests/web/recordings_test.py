@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Events that the recorder keeps, listed, saved, pinned and deleted on Recordings.
+
+Folders: app/ports/web/page/files/recordings app/ports/web/recordings app/ports/recorder
+"""
+
+import json
+import unittest
+import urllib.request
+
+from selenium.webdriver.common.by import By
+
+from appliance import PATIENCE_S, Appliance, eventually
+from page_case import PageCase
+
+EVENTS = """
+[recorder]
+folder = "recordings"
+reserve_mib = 16
+[recorder.events]
+ring_mib = 64
+before_s = 0.5
+after_s = 0.5
+longest_s = 2
+on_alarm = false
+"""
+
+
+class RecordingAppliance(Appliance):
+    def __init__(self):
+        super().__init__()
+        file = self.folder / "demo.toml"
+        file.write_text(file.read_text(encoding="utf-8") + EVENTS, encoding="utf-8")
+
+
+class Recordings(PageCase):
+    @classmethod
+    def make_appliance(cls):
+        return RecordingAppliance()
+
+    def events(self):
+        with urllib.request.urlopen(f"{self.appliance.address}api/v1/recordings", timeout=PATIENCE_S) as answer:
+            return json.load(answer)["events"]
+
+    def shown(self, selector="#events h3"):
+        return [one.text for one in self.browser.find_elements(By.CSS_SELECTOR, selector)]
+
+    def press(self, label):
+        self.browser.find_element(By.XPATH, f"//*[@id='recordings']//button[text()='{label}']").click()
+
+    def record(self):
+        before = len(self.events())
+        self.press("Record what happens now")
+        return eventually("it is recorded", lambda: [
+            one for one in self.events() if len(self.events()) > before and one["is_finished"]])[0]
+
+    def test_an_event_is_recorded_shown_saved_pinned_and_deleted(self):
+        self.browser.get(f"{self.appliance.address}#/recordings")
+        eventually("the list", lambda: "0 events" in self.browser.text("#recordings [role=status]"))
+        event = self.record()
+        self.assertEqual(event["trigger"], "command")
+        self.assertGreater(event["pictures"], 10)
+        self.assertEqual(event["lost"], 0)
+        eventually("it is shown", lambda: self.shown() == ["By command"])
+        eventually("with the picture of its trigger", lambda: self.browser.execute_script(
+            "return document.querySelector('#events img').naturalWidth > 100"))
+        self.browser.keep_picture("recordings")
+
+        link = self.browser.find_element(By.CSS_SELECTOR, "#events a[download]").get_property("href")
+        with urllib.request.urlopen(link, timeout=PATIENCE_S) as answer:
+            saved = answer.read()
+        self.assertEqual(saved[:8], b"\x89MCAP0\r\n")
+        self.assertEqual(saved[-8:], saved[:8], "it is whole")
+
+        self.press("Keep")
+        eventually("it is pinned", lambda: self.events()[0]["is_pinned"])
+        eventually("and says so", lambda: "Do not keep" in self.browser.text("#events"))
+
+        self.browser.find_element(By.NAME, "part").send_keys("no such part")
+        self.assertEqual(self.shown(), [])
+        self.assertIn("0 of 1 events", self.browser.text("#recordings [role=status]"))
+        self.browser.find_element(By.NAME, "part").clear()
+        self.browser.find_element(By.NAME, "part").send_keys(" ")
+        self.assertEqual(self.shown(), ["By command"])
+
+        self.press("Remove")
+        self.browser.switch_to.alert.accept()
+        eventually("it is deleted", lambda: self.events() == [])
+        eventually("and no longer shown", lambda: self.shown() == [])
+        self.assertEqual(self.browser.complaints(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
