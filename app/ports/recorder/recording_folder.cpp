@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/log.h"
+#include "app/ports/recorder/disk_space.h"
 #include "hal/calendar_time.h"
 #include "hal/mcap/completion.h"
 
@@ -39,6 +40,7 @@ Result<> RecordingFolder::prepare() {
   for (const Recording& recording : *recordings) {
     if (unfinished_.contains(recording.file)) continue;
     const auto completed = hal::mcap::complete(recording.file);
+    if (!completed && is_full(settings_.folder)) return fail(completed.error().message);
     if (!completed) {
       unfinished_.insert(recording.file);
       log_line(LogLevel::Warning, "recorder: " + recording.file.string() +

@@ -29,7 +29,7 @@ class RecordingFolder {
       : settings_(settings), events_(settings.folder) {}
 
   /// Creates the folders and finishes recordings that an earlier run did not end; what cannot be
-  /// finished is logged and stays. Error: the folder.
+  /// finished is logged and stays. Errors: the folder; a full disk, for which they wait.
   Result<> prepare();
 
   /// Logs, the oldest first by their names.

@@ -7,6 +7,7 @@
 
 #include "app/log.h"
 #include "app/model/status/utc_text.h"
+#include "app/ports/recorder/disk_space.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "app/ports/recorder/events/event_summary.h"
 #include "hal/atomic_file.h"
@@ -82,6 +83,7 @@ Result<> EventFolder::prepare() {
     if (!name_before(folder, kDeleted).empty()) fs::remove_all(folder, error);
     if (name_before(folder, kUnfinished).empty() || given_up_.contains(folder)) continue;
     const auto recovered = recover(folder);
+    if (!recovered && is_full(root_)) return recovered;
     if (!recovered) given_up_.insert(folder);
     log_line(recovered ? LogLevel::Info : LogLevel::Warning,
              "recorder: " + folder.string() +

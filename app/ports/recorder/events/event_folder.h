@@ -31,7 +31,7 @@ class EventFolder {
   explicit EventFolder(const std::filesystem::path& recordings) : root_(recordings / "events") {}
 
   /// Finishes events whose recorder ended early, and ends deletions. What cannot be finished is
-  /// logged once and stays. Error: the folder.
+  /// logged once and stays. Errors: the folder; a full disk, for which they wait.
   Result<> prepare();
 
   /// The oldest first by their names; none without the folder. Error: the folder.
