@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <sched.h>
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <fstream>
-#include <functional>
 
 #include "hal/mcap/completion.h"
 #include "hal/mcap/reader.h"
@@ -18,6 +14,7 @@
 #include "tests/hal/mcap/recording.h"
 #include "tests/support/require.h"
 #include "tests/support/service_user.h"
+#include "tests/support/small_disk.h"
 #include "tests/support/temporary_folder.h"
 
 /// Disks that refuse to write. Each runs in a process of its own, whose limits and mounts it
@@ -25,29 +22,8 @@
 namespace orbwatch::hal::mcap {
 namespace {
 
-void expect_in_a_process(const std::function<void()>& act) {
-  std::fflush(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    try {
-      act();
-    } catch (const std::exception& error) {
-      ADD_FAILURE() << error.what();
-    }
-    std::fflush(nullptr);
-    ::_exit(testing::Test::HasFailure() ? 1 : 0);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_EQ(status, 0) << "see above";
-}
-
-/// Mounts a file system of that size in this process' own mount namespace.
-void mount_small_disk(const std::filesystem::path& folder, const char* size) {
-  tests::require(::unshare(CLONE_NEWNS) == 0);
-  tests::require(::mount("", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0);
-  tests::require(::mount("small", folder.c_str(), "tmpfs", 0, size) == 0);
-}
+using tests::expect_in_a_process;
+using tests::mount_small_disk;
 
 /// Writes sets until the disk is full; returns the errno.
 int fill(Writer& writer, const tests::Recording& recording, std::size_t& kept) {
