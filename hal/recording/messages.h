@@ -108,4 +108,18 @@ struct CameraInfo {
   }
 };
 
+/// First members of orbwatch_msgs/msg/ProcessState, whose log_time is that of the pictures of its
+/// frame set.
+struct SetNumbers {
+  static constexpr std::string_view kType = "orbwatch_msgs/msg/ProcessState";
+  Header header;
+  std::uint64_t frame_set = 0;
+  std::uint64_t trigger = 0;  ///< 0: not triggered
+
+  template <class Self, class Fields>
+  static auto visit(Self& self, Fields& fields) {
+    return fields(self.header, self.frame_set, self.trigger);
+  }
+};
+
 }  // namespace orbwatch::hal::recording

@@ -100,23 +100,24 @@ Result<PicturePlace> place_of(const CameraInfo& message) {
   return place;
 }
 
-Result<> paste(const Picture& part, const PicturePlace& place, const MutablePicture& whole) {
+Result<> check_fit(PixelFormat format, int width, int height, const PicturePlace& place,
+                   PixelFormat whole) {
   const PictureRegion& region = place.region;
-  if (part.width != region.width || part.height != region.height) {
-    return fail("picture of " + sides(part.width, part.height) + "; camera_info has a region of " +
+  if (width != region.width || height != region.height) {
+    return fail("picture of " + sides(width, height) + "; camera_info has a region of " +
                 sides(region.width, region.height));
   }
-  if (part.format != whole.format) {
-    return fail("pixel format " + std::string(info(part.format).name) +
-                "; the camera's first picture has " + std::string(info(whole.format).name));
+  if (format != whole) {
+    return fail("pixel format " + std::string(info(format).name) +
+                "; the camera's first picture has " + std::string(info(whole).name));
   }
-  if (widened(region, part.format) != region) {
+  const PictureRegion all{0, 0, place.width, place.height};
+  if (widened(region, format) != region || widened(all, format) != all) {
     return fail("region at " + std::to_string(region.x) + "," + std::to_string(region.y) + " of " +
                 sides(region.width, region.height) + " in pixel format " +
-                std::string(info(part.format).name) +
+                std::string(info(format).name) +
                 "; its edges must be even where pixels share chroma");
   }
-  copy_pixels(part, part_of(whole, region));
   return {};
 }
 

@@ -51,10 +51,11 @@ CameraInfo camera_info_of(const PicturePlace& place, Header header);
 /// outside of the picture; binning. Reentrant.
 Result<PicturePlace> place_of(const CameraInfo& message);
 
-/// Copies a picture of any origin to its place in `whole`, which has the place's size, and leaves
-/// the rest. Errors: another size than that of the region; another format than `whole`; edges that
-/// split chroma. Reentrant.
-Result<> paste(const Picture& part, const PicturePlace& place, const MutablePicture& whole);
+/// Checks that a picture of any origin fits its place in a whole picture of the format `whole`.
+/// Errors: another size than that of the region; another format; edges that split chroma.
+/// Reentrant.
+Result<> check_fit(PixelFormat format, int width, int height, const PicturePlace& place,
+                   PixelFormat whole);
 
 /// Copies the pixels between pictures of one size and format, of any alignment. Reentrant.
 void copy_pixels(const Picture& from, const MutablePicture& to);

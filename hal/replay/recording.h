@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -10,6 +12,13 @@
 #include "hal/frame/frame.h"
 
 namespace orbwatch::hal {
+
+/// Exposure of a recorded picture.
+struct RecordedMoment {
+  std::chrono::nanoseconds offset{0};  ///< since the start of the recording
+  std::uint64_t sequence = 0;          ///< see FrameMetadata
+  std::optional<std::uint64_t> trigger = std::nullopt;
+};
 
 /// Recorded pictures by number. Thread-bound.
 class Recording {
@@ -24,6 +33,12 @@ class Recording {
 
   /// Addition to a message on its size: see exif_note().
   virtual std::string size_note() const { return {}; }
+
+  /// Recorded exposure of picture `number`, or of one that would follow the last; a looped
+  /// recording goes on. nullopt: pictures come at the rate.
+  virtual std::optional<RecordedMoment> moment(std::uint64_t /*number*/) const {
+    return std::nullopt;
+  }
 
   /// Copies the pixels of picture `number` into `target`, which has the recording's size and
   /// format, and sets its status if the picture is flawed. A looped recording shows number modulo

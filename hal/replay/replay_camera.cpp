@@ -8,7 +8,9 @@
 
 #include "hal/module/load_module.h"
 #include "hal/module/module_list.h"
+#include "hal/recording/camera_recording.h"
 #include "hal/replay/picture_folder.h"
+#include "hal/replay/recorded_pictures.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -30,20 +32,23 @@ std::string to_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// Opens a folder of pictures, one picture or a video file.
-Result<std::unique_ptr<Recording>> open_recording(const std::filesystem::path& source, bool loop) {
+/// Opens a folder of pictures, one picture, a recording or a video file.
+Result<std::unique_ptr<Recording>> open_recording(const ReplaySettings& settings) {
+  const auto& [name, source, rate, loop, faults] = settings;
   std::error_code error;
   const auto status = std::filesystem::status(source, error);
   if (error) return fail(source.string() + ": " + error.message());
   if (std::filesystem::is_directory(status) || has_picture_name(source)) {
     return PictureFolder::open(source, loop);
   }
+  if (recording::has_recording_name(source)) return RecordedPictures::open(source, name, loop);
   if (std::filesystem::is_regular_file(status)) {
     return module_of(kVideoModule).and_then([&](const CameraModule* module) {
       return module->open_recording(source, loop);
     });
   }
-  return fail(source.string() + ": is neither a folder of pictures nor a video file");
+  return fail(source.string() +
+              ": is neither a folder of pictures nor a recording or a video file");
 }
 
 }  // namespace
@@ -57,7 +62,7 @@ ReplayCamera::~ReplayCamera() { stop(); }
 
 Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
   const std::string who = "camera " + info().id + ": ";
-  auto recording = open_recording(settings_.source, settings_.loop);
+  auto recording = open_recording(settings_);
   if (!recording) return fail(who + recording.error().message);
   StreamFormat format = (*recording)->format();
   if ((request.width != 0 && request.width != format.width) ||
@@ -87,22 +92,39 @@ std::string ReplayCamera::format_note() const {
 
 void ReplayCamera::run(const std::stop_token& stop) {
   const TimePoint start = Clock::now();
-  std::uint64_t exposure = 0;
-  for (TimePoint due = start; wait_until(due);) {
-    if (!expose(exposure, due, stop)) return;
-    exposure = std::max(exposure + 1, exposure_at(Clock::now() - start, format_.frame_rate));
-    due = start + offset(exposure, format_.frame_rate);
+  for (std::uint64_t number = 0; wait_until(start + moment(number).offset);) {
+    if (!expose(number, start, stop)) return;
+    number = next(number, Clock::now() - start);
   }
 }
 
+/// Exposure of a picture, recorded or by the rate.
+RecordedMoment ReplayCamera::moment(std::uint64_t number) const {
+  const auto recorded = recording_->moment(number);
+  return recorded ? *recorded : RecordedMoment{offset(number, format_.frame_rate), number};
+}
+
+/// The picture that follows `number`; later ones when it is late.
+std::uint64_t ReplayCamera::next(std::uint64_t number, Clock::duration elapsed) const {
+  if (!recording_->moment(number)) {
+    return std::max(number + 1, exposure_at(elapsed, format_.frame_rate));
+  }
+  const bool is_late = moment(number + 1).offset + kLateEnoughToTell < elapsed;
+  for (++number; is_late && moment(number + 1).offset <= elapsed;) ++number;
+  return number;
+}
+
 /// Makes one exposure; false when the recording is over.
-bool ReplayCamera::expose(std::uint64_t exposure, TimePoint due, const std::stop_token& stop) {
-  const FrameMetadata metadata{.sequence = exposure, .exposure_start = due};
+bool ReplayCamera::expose(std::uint64_t number, TimePoint start, const std::stop_token& stop) {
+  const RecordedMoment recorded = moment(number);
+  const TimePoint due = start + recorded.offset;
+  const FrameMetadata metadata{
+      .sequence = recorded.sequence, .exposure_start = due, .trigger = recorded.trigger};
   if (fails(script_, metadata)) return true;
   const auto buffer = pool_->acquire();
   if (!buffer) return true;  // lost: all buffers are in use
   buffer->metadata = metadata;
-  if (const auto shown = recording_->show(exposure, *buffer, stop); !shown) {
+  if (const auto shown = recording_->show(number, *buffer, stop); !shown) {
     const auto& [fault, detail] = shown.error();
     if (fault == Fault::CorruptFrame) {
       discard(metadata, detail);

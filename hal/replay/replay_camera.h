@@ -17,8 +17,10 @@ namespace orbwatch::hal {
 
 /// Camera that plays a recording. Exposure n is due at start + n / rate and shows picture n modulo
 /// count, so cameras that start together stay synchronous. When late by a period or more, it skips
-/// exposures, a gap in the sequence, as when all buffers are lent. A damaged picture is withheld
-/// and counted; one that differs from the first in size or format is withheld and reported.
+/// exposures, a gap in the sequence, as when all buffers are lent. A recording with moments of its
+/// own is played at these, and skips none until it is late by a second. A damaged picture is
+/// withheld and counted; one that differs from the first in size or format is withheld and
+/// reported.
 class ReplayCamera : public Camera {
  public:
   explicit ReplayCamera(ReplaySettings settings);
@@ -34,7 +36,9 @@ class ReplayCamera : public Camera {
   void run(const std::stop_token& stop) override;
 
  private:
-  bool expose(std::uint64_t exposure, TimePoint due, const std::stop_token& stop);
+  RecordedMoment moment(std::uint64_t number) const;
+  std::uint64_t next(std::uint64_t number, Clock::duration elapsed) const;
+  bool expose(std::uint64_t number, TimePoint start, const std::stop_token& stop);
 
   ReplaySettings settings_;
   FaultScript script_;

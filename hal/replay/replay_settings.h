@@ -21,7 +21,7 @@ struct ReplaySettings {
   static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Files, .address_key = "source"};
 
   std::string name;              ///< becomes CameraInfo::id
-  std::filesystem::path source;  ///< a folder of JPEG or PNG pictures, one, or a video file
+  std::filesystem::path source;  ///< a folder of JPEG or PNG pictures, one, a recording, or a video
   double frame_rate = 0;         ///< per second; 0: the video's own, 30 for a folder
   bool loop = true;              ///< false: after the last picture the camera is unplugged
   std::vector<ScriptedFault> faults = {};
@@ -41,8 +41,9 @@ struct ReplaySettings {
 template <class Visitor>
 void visit(Visitor& v, ReplaySettings& settings) {
   v.required("source", settings.source,
-             "Folder of numbered JPEG or PNG pictures, one picture, or a video, which needs the "
-             "package orbwatch-camera-video");
+             "Folder of numbered JPEG or PNG pictures, one picture, an MCAP recording, which has "
+             "pictures of a camera of this name, or a video, which needs the package "
+             "orbwatch-camera-video");
   v.optional("loop", settings.loop, "Restart from the first picture after the last one");
 }
 

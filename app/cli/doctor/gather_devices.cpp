@@ -10,6 +10,7 @@
 #include "app/health/system_file.h"
 #include "hal/lines/find_line.h"
 #include "hal/module/module_list.h"
+#include "hal/recording/camera_recording.h"
 #include "hal/replay/picture_decoder.h"
 #include "hal/thread/file_descriptor.h"
 #include "hal/v4l2/device/v4l2_list.h"
@@ -85,7 +86,8 @@ CameraFacts Search::no_module(std::string_view module, const std::string& addres
 
 CameraFacts Search::in_files(const std::string& address) const {
   std::error_code unknown;
-  if (fs::is_regular_file(address, unknown) && !hal::has_picture_name(address)) {
+  if (fs::is_regular_file(address, unknown) && !hal::has_picture_name(address) &&
+      !hal::recording::has_recording_name(address)) {
     if (const auto loaded = sources_.video_module(); !loaded) {
       return no_module(hal::kVideoModule, address, loaded.error().message);
     }

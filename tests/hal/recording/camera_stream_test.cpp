@@ -9,7 +9,7 @@
 namespace orbwatch::hal::recording {
 namespace {
 
-std::string refusal(const mcap::StringMap& metadata) {
+std::string metadata_refusal(const mcap::StringMap& metadata) {
   StreamFormat format;
   const auto read = read_metadata(metadata, format);
   return read ? "accepted" : read.error().message;
@@ -42,11 +42,11 @@ TEST(CameraStream, WithoutEntriesNothingChanges) {
 }
 
 TEST(CameraStream, WrongValuesAreRefused) {
-  EXPECT_EQ(refusal({{"frame_rate", "30"}}), "accepted");
-  EXPECT_EQ(refusal({{"colour_range", "wide"}}),
+  EXPECT_EQ(metadata_refusal({{"frame_rate", "30"}}), "accepted");
+  EXPECT_EQ(metadata_refusal({{"colour_range", "wide"}}),
             "metadata of the channel: colour_range must be one of limited, full");
   for (const char* rate : {"1001", "-1001", "nan", "inf", "1e400", "30 ", "", "0x10"}) {
-    EXPECT_EQ(refusal({{"frame_rate", rate}}),
+    EXPECT_EQ(metadata_refusal({{"frame_rate", rate}}),
               "metadata of the channel: frame_rate must be a number of at most 1000.000000")
         << rate;
   }

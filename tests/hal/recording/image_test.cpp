@@ -18,7 +18,7 @@ using tests::random_sides;
 using tests::RandomPicture;
 using tests::samples_at;
 
-std::string refusal(const Image& message) {
+std::string image_refusal(const Image& message) {
   const auto picture = picture_of(message);
   return picture ? "accepted" : picture.error().message;
 }
@@ -102,11 +102,11 @@ TEST(Image, OtherNamesOfEncodingsAreRead) {
 TEST(Image, WrongMessagesAreRefusedInASentence) {
   const mcap::Bytes data(24);
   const Image good{{}, 3, 4, "mono16", 0, 8, data};
-  EXPECT_EQ(refusal(good), "accepted");
+  EXPECT_EQ(image_refusal(good), "accepted");
   const auto with = [&](auto change) {
     Image message = good;
     change(message);
-    return refusal(message);
+    return image_refusal(message);
   };
   EXPECT_EQ(with([](Image& m) { m.width = 0; }), "image of 0x3: its sides must be 1 to 16384");
   EXPECT_EQ(with([](Image& m) { m.height = 4'000'000'000; }),

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/hal/recording/picture_file.h"
 #include "tests/hal/replay/exif_pictures.h"
 #include "tests/hal/replay/picture_files.h"
 #include "tests/hal/video/test_video.h"
@@ -308,6 +309,77 @@ TEST(ReplayCamera, LosesFramesWhenAllAreHeldAndComesBack) {
   ASSERT_TRUE(changed.wait_for(lock, kGuard, [&] { return last > last_held + 1; }));
   lock.unlock();
   camera.stop();
+}
+
+/// Writes a recording of 8x6 pictures with the sequence 5, 6, 8, 9 of which each has its value;
+/// those of "west" are exposed 2 ms later. The second frame set has trigger 70, the last 72.
+void write_recording(const std::filesystem::path& path) {
+  constexpr std::uint64_t kBegin = 1'700'000'000'000'000'000, kMillisecond = 1'000'000;
+  tests::PictureFile file(path);
+  const StreamFormat format{PixelFormat::Y16, {}, 8, 6, 25};
+  tests::CameraTopics east(file, "east", format), west(file, "west", format);
+  const auto states = file.add("/orbwatch/process_state", recording::SetNumbers::kType);
+  for (const std::uint32_t k : {0U, 1U, 3U, 4U}) {
+    const std::uint64_t time = kBegin + k * 10 * kMillisecond;
+    std::vector<std::uint16_t> samples(48, static_cast<std::uint16_t>(value_of(k)));
+    const auto picture =
+        picture_of(PixelFormat::Y16, ImageView<std::uint16_t>{samples.data(), 8, 6, 1, 8});
+    east.write(picture, {0, 0, 8, 6}, time, time, 5 + k);
+    west.write(picture, {0, 0, 4, 6}, time, time + 2 * kMillisecond, 5 + k);
+    const std::uint64_t trigger = k == 1 ? 70 : k == 4 ? 72 : 0;
+    file.write(states, time, k, recording::SetNumbers{{}, k + 1, trigger});
+  }
+  file.finish();
+}
+
+TEST(ReplayCamera, PlaysARecordingAtItsMoments) {
+  const TemporaryFolder folder;
+  write_recording(folder / "event.mcap");
+  ReplayCamera camera({.name = "east", .source = folder / "event.mcap"});
+  const auto format = camera.configure({});
+  ASSERT_TRUE(format) << format.error().message;
+  EXPECT_EQ(format->format, PixelFormat::Y16);
+  EXPECT_EQ(format->frame_rate, 25);
+  Listener listener;
+  listener.start(camera);
+  listener.wait_for_frames(7);
+  camera.stop();
+  // The last picture is at 40 ms, and four frame sets come every 40 / 3 ms.
+  const std::vector<Clock::duration> moments{0ms, 10ms, 30ms, 40ms};
+  const Clock::duration length = 40ms + std::chrono::nanoseconds(13'333'333);
+  const std::vector<std::uint64_t> numbers{0, 1, 3, 4};
+  const std::vector<std::optional<std::uint64_t>> triggers{std::nullopt, 70, std::nullopt, 72};
+  const auto& frames = listener.frames();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const std::size_t picture = k % 4, round = k / 4;
+    EXPECT_EQ(listener.values()[k], value_of(numbers[picture]));
+    EXPECT_EQ(frames[k].sequence, numbers[picture] + round * 5);
+    EXPECT_EQ(frames[k].exposure_start - frames[0].exposure_start,
+              moments[picture] + static_cast<int>(round) * length);
+    const auto trigger = triggers[picture];
+    EXPECT_EQ(frames[k].trigger, trigger ? std::optional(*trigger + round * 3) : std::nullopt);
+  }
+}
+
+TEST(ReplayCamera, PlaysARecordingOnce) {
+  const TemporaryFolder folder;
+  write_recording(folder / "event.mcap");
+  ReplayCamera camera({.name = "west", .source = folder / "event.mcap", .loop = false});
+  ASSERT_TRUE(camera.configure({}));
+  Listener listener;
+  listener.start(camera);
+  listener.wait_for_faults(1);
+  camera.stop();
+  EXPECT_THAT(listener.values(), ElementsAre(value_of(0), value_of(1), value_of(3), value_of(4)));
+  EXPECT_EQ(listener.faults().front().fault, Fault::Unplugged);
+}
+
+TEST(ReplayCamera, NeedsPicturesOfACameraOfItsName) {
+  const TemporaryFolder folder;
+  write_recording(folder / "event.mcap");
+  const auto refused = ReplayCamera({.name = "up", .source = folder / "event.mcap"}).configure({});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("it has pictures of east, west"));
 }
 
 TEST(ReplayCamera, SaysWhyItCannotPlay) {

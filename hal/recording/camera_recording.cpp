@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal/recording/camera_recording.h"
+
+#include <string>
+
+#include "hal/recording/recorded_part.h"
+
+namespace orbwatch::hal::recording {
+
+Result<CameraRecording> CameraRecording::open(const std::filesystem::path& file,
+                                              std::string_view camera) {
+  auto reader = mcap::Reader::open(file);
+  if (!reader) return fail(reader.error().message);
+  auto index = index_camera(*reader, camera);
+  if (!index) return fail(file.string() + ": " + index.error().message);
+  return CameraRecording(file, std::move(*reader), std::move(*index));
+}
+
+/// Loads the message of the exposure.
+Result<mcap::Message> CameraRecording::load(const RecordedExposure& exposure) {
+  if (exposure.chunk != chunk_ || exposure.message < next_) {
+    chunk_ = static_cast<std::size_t>(-1);
+    if (const auto loaded = reader_.load_chunk(exposure.chunk); !loaded) {
+      return fail(loaded.error().message);
+    }
+    chunk_ = exposure.chunk;
+    next_ = 0;
+  }
+  while (auto message = reader_.next()) {
+    if (next_++ == exposure.message) return *message;
+  }
+  return fail("the chunk has changed since it was read first");
+}
+
+Result<FrameStatus> CameraRecording::read(std::size_t exposure, const MutablePicture& target) {
+  const RecordedExposure& place = index_.exposures.at(exposure);
+  const auto named = [&](const Error& error) {
+    return Error{file_.string() + ": " + index_.channels.pictures.topic + ", picture " +
+                 std::to_string(exposure) + ": " + error.message};
+  };
+  const StreamFormat& whole = index_.format;
+  return load(place)
+      .and_then([&](const mcap::Message& message) {
+        return part_in(message, index_.channels, whole.format);
+      })
+      .and_then([&](const RecordedPart& part) -> Result<FrameStatus> {
+        const PicturePlace in_whole{whole.width, whole.height, place.region};
+        const auto fits = check_fit(part.format, part.width, part.height, in_whole, target.format);
+        if (!fits) return tl::unexpected(fits.error());
+        blacken(target);
+        return place_part(part, place.region, *jpeg_, target);
+      })
+      .map_error(named);
+}
+
+}  // namespace orbwatch::hal::recording
