@@ -9,6 +9,7 @@ import unittest
 import urllib.request
 
 from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
 
 from appliance import PATIENCE_S, Appliance, eventually
 from page_case import PageCase
@@ -54,6 +55,40 @@ class Recordings(PageCase):
         return eventually("it is recorded", lambda: [
             one for one in self.events() if len(self.events()) > before and one["is_finished"]])[0]
 
+    def viewed(self):
+        """Number of the picture that is shown, number of all, and its width."""
+        text = self.browser.text("#viewer output").split(",")[0]
+        number, count = text.split(" of ") if " of " in text else (0, 0)
+        return int(number), int(count), self.browser.execute_script(
+            "const seen = document.querySelector('#viewer img');"
+            "return seen.complete && seen.src.endsWith(`frame=${arguments[0]}`) ? seen.naturalWidth : 0",
+            int(number) - 1)
+
+    def step_through_its_pictures(self, event):
+        self.press("Look at it")
+        eventually("a picture", lambda: self.viewed()[2] > 100)
+        at, count, _ = self.viewed()
+        self.assertIn("0.00 s from the trigger", self.browser.text("#viewer output"), "it begins with the trigger")
+        self.assertGreater(at, 3)
+        self.assertLess(at, count)
+        self.browser.keep_picture("recordings-viewer")
+        self.press("One after")
+        eventually("the next one", lambda: self.viewed()[0] == at + 1 and self.viewed()[2] > 100)
+        self.press("One before")
+        eventually("the one before", lambda: self.viewed()[0] == at and self.viewed()[2] > 100)
+        colour = self.viewed()[2]
+        camera = Select(self.browser.find_element(By.CSS_SELECTOR, "#viewer select"))
+        counts = {}
+        for name in [one.text for one in camera.options]:
+            camera.select_by_visible_text(name)
+            eventually(f"pictures of {name}", lambda: self.viewed()[2] > 50)
+            counts[name] = self.viewed()[1]
+        self.assertGreater(len(counts), 1)
+        self.assertEqual(sum(counts.values()), event["pictures"])
+        self.assertNotEqual(self.viewed()[2], colour, "another camera has another size")
+        self.press("Close")
+        self.assertFalse(self.browser.find_element(By.ID, "viewer").is_displayed())
+
     def test_an_event_is_recorded_shown_saved_pinned_and_deleted(self):
         self.browser.get(f"{self.appliance.address}#/recordings")
         eventually("the list", lambda: "0 events" in self.browser.text("#recordings [role=status]"))
@@ -65,6 +100,8 @@ class Recordings(PageCase):
         eventually("with the picture of its trigger", lambda: self.browser.execute_script(
             "return document.querySelector('#events img').naturalWidth > 100"))
         self.browser.keep_picture("recordings")
+
+        self.step_through_its_pictures(event)
 
         link = self.browser.find_element(By.CSS_SELECTOR, "#events a[download]").get_property("href")
         with urllib.request.urlopen(link, timeout=PATIENCE_S) as answer:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -29,6 +30,12 @@ struct RecordedEvent {
   bool is_interrupted = false;  ///< it was not recorded to its end
 };
 
+/// Pictures of one camera in an event.
+struct RecordedFrames {
+  std::string camera;
+  std::vector<std::string> times;  ///< UTC of their frame sets, ascending
+};
+
 /// The events of the recorder, for other interfaces. Each call waits for the disk. Thread-safe.
 class RecordedEvents {
  public:
@@ -42,6 +49,10 @@ class RecordedEvents {
   virtual Result<std::filesystem::path> recording(std::string_view event) const = 0;
   /// The picture of the trigger, a JPEG file.
   virtual Result<std::filesystem::path> picture(std::string_view event) const = 0;
+  virtual Result<std::vector<RecordedFrames>> frames(std::string_view event) = 0;
+  /// A picture of a camera as JPEG; 16 bit is stretched. Error also: there is no such picture.
+  virtual Result<std::string> frame(std::string_view event, std::string_view camera,
+                                    std::size_t frame) = 0;
   virtual Result<> set_pinned(std::string_view event, bool is_pinned) = 0;
   virtual Result<> remove(std::string_view event) = 0;
 };

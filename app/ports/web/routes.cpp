@@ -238,13 +238,22 @@ std::vector<Route> recording_routes(const RouteOwners& of) {
           "trigger"),
       get<&RecordingRoutes::picture>("/api/v1/recordings/trigger.jpg", Viewer, of.recordings,
                                      "Returns the picture of an event's trigger", kJpeg),
+      get<&RecordingRoutes::frames, FramesAnswer>(
+          "/api/v1/recordings/frames", Viewer, of.recordings,
+          "Returns the times of an event's pictures by camera"),
+      get<&RecordingRoutes::frame>(
+          "/api/v1/recordings/frame.jpg", Viewer, of.recordings,
+          "Returns one picture of an event: the recorded part; one channel of 16 bit is stretched "
+          "from its darkest to its brightest pixel",
+          kJpeg),
       get<&RecordingRoutes::recording>(
           "/api/v1/recordings/event.mcap", Viewer, of.recordings,
           "Returns an event as an MCAP file in the definitions of ROS 2", kMcap),
-      post<&RecordingRoutes::pin>("/api/v1/pin_recording", Operator, of.recordings, of.file_changes,
+      post<&RecordingRoutes::pin>("/api/v1/pin_recording", Operator, of.recordings,
+                                  of.recording_changes,
                                   "Protects an event from being deleted for room, or ends that"),
       post<&RecordingRoutes::remove>("/api/v1/remove_recording", Integrator, of.recordings,
-                                     of.file_changes, "Deletes an event, also a pinned one"),
+                                     of.recording_changes, "Deletes an event, also a pinned one"),
   };
 }
 

@@ -45,6 +45,7 @@ struct RouteOwners {
   CommandDesk* commands = nullptr;
   const MachineDesk* machine = nullptr;
   RecordingRoutes* recordings = nullptr;
+  Changes* recording_changes = nullptr;  ///< thread of the recorder's files
 };
 
 /// The whole HTTP interface without the page's files: a line for each route, and one for all

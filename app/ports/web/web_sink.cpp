@@ -25,6 +25,8 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
                       "too many logins or changes of users at present; try again"),
       file_changes_(access_, audit_, "web files",
                     "other users are changing the configuration at present; try again"),
+      recording_changes_(access_, audit_, "web recordings",
+                         "recordings are being read for other users at present; try again"),
       list_(context),
       pixels_(context),
       status_(context.names, {[this] { return statistics(); }, context.metrics},
@@ -46,7 +48,7 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       configuration_(context.program.files, audit_, file_changes_),
       interfaces_(context.tables, context.program),
       fleet_(context.fleet),
-      recordings_(context.events, file_changes_),
+      recordings_(context.events, recording_changes_),
       routes_(make_routes()),
       listeners_(
           settings_, context.state_folder,
@@ -55,10 +57,10 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
 WebSink::~WebSink() { stop(); }
 
 std::vector<web::Route> WebSink::make_routes() {
-  std::vector<web::Route> routes =
-      web::routes_of({&status_, &streams_, &list_, &pixels_, &desk_, &access_changes_,
-                      &look_around_, &configuration_, &file_changes_, &log_, &alignment_, &recipe_,
-                      &history_, &interfaces_, &fleet_, &commands_, &machine_, &recordings_});
+  std::vector<web::Route> routes = web::routes_of(
+      {&status_, &streams_, &list_, &pixels_, &desk_, &access_changes_, &look_around_,
+       &configuration_, &file_changes_, &log_, &alignment_, &recipe_, &history_, &interfaces_,
+       &fleet_, &commands_, &machine_, &recordings_, &recording_changes_});
   std::ranges::move(web::page_routes(), std::back_inserter(routes));
   return routes;
 }
@@ -74,6 +76,7 @@ void WebSink::begin() {
   access_.start(https_port_of(settings_) || !settings_.trusted_proxies.empty());
   access_changes_.start();
   file_changes_.start();
+  recording_changes_.start();
   is_running_ = true;
   thread_.start("web", [this] { watch(); });
 }
@@ -107,6 +110,7 @@ void WebSink::stop() {
   thread_.stop();
   commands_.runner().stop();
   file_changes_.stop();
+  recording_changes_.stop();
   access_changes_.stop();
   listeners_.close();
   look_around_.stop();
@@ -119,7 +123,8 @@ void WebSink::stop() {
 
 std::chrono::nanoseconds WebSink::cpu_time() const {
   return thread_.cpu_time() + commands_.runner().cpu_time() + look_around_.cpu_time() +
-         access_changes_.cpu_time() + file_changes_.cpu_time() + streams_.cpu_time();
+         access_changes_.cpu_time() + file_changes_.cpu_time() + recording_changes_.cpu_time() +
+         streams_.cpu_time();
 }
 
 PictureNeeds WebSink::needs(std::size_t view, hal::TimePoint stamp) {

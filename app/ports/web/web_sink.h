@@ -75,6 +75,7 @@ class WebSink final : public Sink {
   web::Audit audit_;
   web::Access access_;
   web::Changes access_changes_, file_changes_;
+  web::Changes recording_changes_;
   web::ViewList list_;
   web::PixelRoute pixels_;
   web::StatusRoutes status_;

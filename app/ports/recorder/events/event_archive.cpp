@@ -62,6 +62,16 @@ Result<std::filesystem::path> EventArchive::picture(std::string_view event) cons
       [](const StoredEvent& stored) { return stored.folder / kEventPicture; });
 }
 
+Result<std::vector<RecordedFrames>> EventArchive::frames(std::string_view event) {
+  return recording(event).and_then([this](const auto& file) { return pictures_.frames(file); });
+}
+
+Result<std::string> EventArchive::frame(std::string_view event, std::string_view camera,
+                                        std::size_t frame) {
+  return recording(event).and_then(
+      [&](const auto& file) { return pictures_.jpeg(file, camera, frame); });
+}
+
 Result<> EventArchive::set_pinned(std::string_view event, bool is_pinned) {
   return finished(event).and_then([is_pinned](const StoredEvent& stored) {
     return EventFolder::set_pinned(stored, is_pinned);

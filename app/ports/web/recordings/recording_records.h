@@ -49,6 +49,32 @@ void visit(Visitor& v, EventQuery& query) {
   v.required("event", query.event, "Name of the event");
 }
 
+template <class Visitor>
+void visit(Visitor& v, RecordedFrames& frames) {
+  v.required("camera", frames.camera, "Name of the camera");
+  v.required("times", frames.times, "Times of the pictures' frame sets, UTC, ascending");
+}
+
+struct FramesAnswer {
+  std::vector<RecordedFrames> cameras;
+};
+template <class Visitor>
+void visit(Visitor& v, FramesAnswer& answer) {
+  v.required("cameras", answer.cameras, "Pictures by camera");
+}
+
+struct FrameQuery {
+  std::string event;
+  std::string camera;
+  int frame = 0;
+};
+template <class Visitor>
+void visit(Visitor& v, FrameQuery& query) {
+  v.required("event", query.event, "Name of the event");
+  v.required("camera", query.camera, "Name of the camera");
+  v.required("frame", query.frame, Range::between(0, 1e6), "Number of the picture, from 0");
+}
+
 struct PinBody {
   std::string event;
   bool is_pinned = true;

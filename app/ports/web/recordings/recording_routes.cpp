@@ -55,6 +55,25 @@ void RecordingRoutes::recording(const EventQuery& query, const ExchangePtr& exch
   });
 }
 
+void RecordingRoutes::frames(const EventQuery& query, const ExchangePtr& exchange) const {
+  changes_.read(exchange, [events = events_, event = query.event] {
+    if (!events) return error_response(404, kNone);
+    auto frames = events->frames(event);
+    if (!frames) return error_response(404, frames.error().message);
+    FramesAnswer answer{std::move(*frames)};
+    return json_response(json_text(json_of(answer)));
+  });
+}
+
+void RecordingRoutes::frame(const FrameQuery& query, const ExchangePtr& exchange) const {
+  changes_.read(exchange, [events = events_, query] {
+    if (!events) return error_response(404, kNone);
+    auto jpeg = events->frame(query.event, query.camera, static_cast<std::size_t>(query.frame));
+    return jpeg ? body_response(kJpeg, std::move(*jpeg))
+                : error_response(404, jpeg.error().message);
+  });
+}
+
 Answered<Done> RecordingRoutes::pin(Change<PinBody>& change) const {
   const auto& [event, is_pinned] = change.body;
   change.after = event + (is_pinned ? " pinned" : " not pinned");

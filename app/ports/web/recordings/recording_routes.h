@@ -24,6 +24,8 @@ class RecordingRoutes {
 
   void list(const ExchangePtr& exchange) const;
   void picture(const EventQuery& query, const ExchangePtr& exchange) const;
+  void frames(const EventQuery& query, const ExchangePtr& exchange) const;
+  void frame(const FrameQuery& query, const ExchangePtr& exchange) const;
   void recording(const EventQuery& query, const ExchangePtr& exchange) const;
   Answered<Done> pin(Change<PinBody>& change) const;
   Answered<Done> remove(Change<EventQuery>& change) const;

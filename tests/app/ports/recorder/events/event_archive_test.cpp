@@ -5,8 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+#include <vector>
 
 #include "app/ports/recorder/events/event_summary.h"
+#include "tests/hal/recording/picture_file.h"
+#include "tests/support/picture_of_mat.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::recorder {
@@ -56,6 +61,53 @@ TEST_F(Archive, TellsWhatAnEventIs) {
   EXPECT_TRUE(one.is_finished);
   EXPECT_EQ(archive_.recording(kName).value(), event / kEventFile);
   EXPECT_EQ(archive_.picture(kName).value(), event / kEventPicture);
+}
+
+/// Records a region of pictures of 16 bit: the nth has 100 n everywhere but 4000 at one pixel.
+void record_pictures(const fs::path& path, int count) {
+  const hal::recording::PictureRegion region{8, 4, 40, 30};
+  const hal::StreamFormat format{PixelFormat::Y16, {}, 64, 48, 30, 0.04, 1};
+  fs::remove(path);  // of make()
+  orbwatch::tests::PictureFile file(path);
+  orbwatch::tests::CameraTopics camera(file, "thermal", format);
+  for (int n = 0; n < count; ++n) {
+    cv::Mat1w samples(48, 64, static_cast<std::uint16_t>(100 * n));
+    samples(20, 20) = 4000;
+    const std::uint64_t time = 1'764'322'000'000'000'000 + std::uint64_t(n) * 40'000'000;
+    camera.write(orbwatch::tests::picture_of_mat(samples), region, time, time, std::uint32_t(n));
+  }
+  file.finish();
+}
+
+TEST_F(Archive, ShowsThePartOfAPictureThatIsRecorded) {
+  record_pictures(make(kName) / kEventFile, 3);
+  const auto frames = archive_.frames(kName);
+  ASSERT_TRUE(frames) << frames.error().message;
+  ASSERT_EQ(frames->size(), 1U);
+  EXPECT_EQ(frames->front().camera, "thermal");
+  EXPECT_THAT(frames->front().times, testing::ElementsAre("2025-11-28T09:26:40.000000000Z",
+                                                          "2025-11-28T09:26:40.040000000Z",
+                                                          "2025-11-28T09:26:40.080000000Z"));
+  // In any order, and of another event between.
+  record_pictures(make(kName + "-2") / kEventFile, 1);
+  for (const auto& [name, n] : {std::pair(kName, 2), {kName + "-2", 0}, {kName, 1}}) {
+    const auto jpeg = archive_.frame(name, "thermal", static_cast<std::size_t>(n));
+    ASSERT_TRUE(jpeg) << jpeg.error().message;
+    const cv::Mat shown =
+        cv::imdecode(std::vector<char>(jpeg->begin(), jpeg->end()), cv::IMREAD_GRAYSCALE);
+    EXPECT_EQ(shown.size(), cv::Size(40, 30));
+    EXPECT_LT(shown.at<std::uint8_t>(0, 0), 8) << "the darkest";
+    EXPECT_GT(shown.at<std::uint8_t>(16, 12), 200) << "the brightest";
+  }
+}
+
+TEST_F(Archive, RefusesPicturesThatItDoesNotHave) {
+  record_pictures(make(kName) / kEventFile, 3);
+  EXPECT_THAT(archive_.frame(kName, "thermal", 3).error().message,
+              HasSubstr("no picture 3; 0 to 2 are recorded"));
+  EXPECT_FALSE(archive_.frame(kName, "colour", 0));
+  std::ofstream(make(kName) / kEventFile) << "no recording";
+  EXPECT_FALSE(archive_.frames(kName));
 }
 
 TEST_F(Archive, PinsAndDeletes) {

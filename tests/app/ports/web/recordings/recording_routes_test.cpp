@@ -46,6 +46,17 @@ class Events : public RecordedEvents {
   Result<std::filesystem::path> picture(std::string_view event) const override {
     return file(event, ".jpg");
   }
+  Result<std::vector<RecordedFrames>> frames(std::string_view event) override {
+    return file(event, ".mcap").map([](const auto&) {
+      return std::vector<RecordedFrames>{{"thermal", {"2026-11-28T12:00:00Z"}}};
+    });
+  }
+  Result<std::string> frame(std::string_view event, std::string_view camera,
+                            std::size_t frame) override {
+    return file(event, ".mcap").map([&](const auto&) {
+      return std::string(camera) + " " + std::to_string(frame);
+    });
+  }
   Result<> set_pinned(std::string_view event, bool is_pinned) override {
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find(events_, event, &RecordedEvent::name);
@@ -123,6 +134,17 @@ TEST_F(RecordingRoutes, SendTheFilesOfAnEvent) {
   const Answer picture = get(port(), "/api/v1/recordings/trigger.jpg?event=e1");
   EXPECT_EQ(picture.body, "picture of e1");
   EXPECT_EQ(picture.headers.at("Content-Type"), "image/jpeg");
+}
+
+TEST_F(RecordingRoutes, SendSinglePictures) {
+  events->add("e1", "recording");
+  const Answer frames = get(port(), "/api/v1/recordings/frames?event=e1");
+  EXPECT_EQ(json::parse(frames.body), json::parse(R"({"cameras": [{"camera": "thermal",
+                                         "times": ["2026-11-28T12:00:00Z"]}]})"));
+  const std::string path = "/api/v1/recordings/frame.jpg?event=e1&camera=thermal&frame=";
+  EXPECT_EQ(get(port(), path + "7").body, "thermal 7");
+  EXPECT_EQ(get(port(), path + "-1").status, 400);
+  EXPECT_EQ(get(port(), "/api/v1/recordings/frames?event=e2").status, 404);
 }
 
 TEST_F(RecordingRoutes, RefuseWhatIsNoEventOrHasNoFile) {

@@ -4,6 +4,7 @@ import { command, post } from "../appliance/api.js";
 import { momentText, timeZone } from "../elements/clock.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { Viewer } from "./viewer.js";
 
 const kAgainMs = 2000;
 const kKinds = ["alarm", "command", "laser_on", "layer"];
@@ -17,9 +18,11 @@ function button(label, act) {
   return made;
 }
 
-// One event, updated in place. `change(path, body)` requests a change.
+// One event, updated in place. `change(path, body)` requests a change, `look(event, title)` shows its pictures.
 class Card {
-  constructor({ name }, change, may) {
+  #event = null;
+
+  constructor({ name }, { change, look }, may) {
     const said = texts.recordings;
     this.name = name;
     this.picture = element("img", { width: 160, loading: "lazy", hidden: true });
@@ -28,6 +31,7 @@ class Card {
     this.machine = element("p");
     this.about = element("p", { className: "quiet" });
     this.wrong = element("p", { className: "wrong" });
+    this.look = button(said.look, () => look(this.#event, this.cause.textContent));
     this.pin = button("", () => change("pin_recording", { event: name, is_pinned: !this.isPinned }));
     this.save = element("a", { className: "button", download: `${name}.mcap`, href: pathOf("event.mcap", name) },
       texts.download);
@@ -35,12 +39,13 @@ class Card {
       confirm(said.removeAsks(this.cause.textContent)) && change("remove_recording", { event: name }));
     this.root = element("li", { className: "appliance" }, this.picture,
       element("div", {}, this.cause, this.when, this.machine, this.wrong, this.about,
-        element("p", { className: "buttons" }, may("operator") ? this.pin : "", this.save,
+        element("p", { className: "buttons" }, this.look, may("operator") ? this.pin : "", this.save,
           may("integrator") ? remove : "")));
   }
 
   show(event) {
     const said = texts.recordings;
+    this.#event = event;
     this.isPinned = event.is_pinned;
     setText(this.cause, event.trigger === "alarm" ? event.cause : said.kinds[event.trigger] ?? event.cause);
     setText(this.when, momentText(event.triggered || event.first));
@@ -50,7 +55,7 @@ class Card {
       event.has_beginning ? "" : said.noBeginning, event.lost > 0 ? said.lost(event.lost) : ""]
       .filter(Boolean).join(" "));
     setText(this.pin, event.is_pinned ? said.unpin : said.pin);
-    this.pin.disabled = !event.is_finished;
+    this.look.disabled = this.pin.disabled = !event.is_finished;
     this.save.hidden = !event.is_finished;
     if (event.is_finished && this.picture.hidden) this.#showPicture();
   }
@@ -86,8 +91,9 @@ export class Recordings {
     this.filters.addEventListener("input", () => this.#show());
     this.filters.addEventListener("submit", (event) => event.preventDefault());
     this.list = element("ul", { id: "events" });
-    root.append(element("p", { className: "buttons" }, may("operator") ? this.record : ""), this.filters, this.said,
-      this.refused, this.list);
+    this.viewer = new Viewer();
+    root.append(this.viewer.root, element("p", { className: "buttons" }, may("operator") ? this.record : ""),
+      this.filters, this.said, this.refused, this.list);
     addEventListener("hashchange", () => this.#read());
     this.#read();
   }
@@ -144,7 +150,8 @@ export class Recordings {
   #card(event) {
     if (!this.#cards.has(event.name)) {
       const change = (path, body) => this.#tell(post(`api/v1/${path}`, body));
-      this.#cards.set(event.name, new Card(event, change, this.may));
+      const look = (shown, title) => this.viewer.open(shown, title);
+      this.#cards.set(event.name, new Card(event, { change, look }, this.may));
     }
     return this.#cards.get(event.name);
   }

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of one event, one after the other, beginning with that of the trigger.
+import { secondText } from "../elements/clock.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kDigits = 2;  // of seconds from the trigger
+
+export class Viewer {
+  #event = null;
+  #cameras = {};  // by camera: milliseconds since 1970 of its pictures
+  #times = [];    // those of the chosen one
+  #path = "";     // of the picture that was asked for last
+  #isLoading = false;
+
+  constructor() {
+    const said = texts.recordings;
+    this.heading = element("h3");
+    this.camera = element("select", { name: "camera" });
+    this.camera.addEventListener("change", () => this.#choose());
+    this.picture = element("img", { className: "frame" });
+    this.picture.addEventListener("load", () => this.#end(""));
+    this.picture.addEventListener("error", () => this.#end(said.noPicture));
+    this.place = element("input", { type: "range", min: 0, step: 1, "aria-label": said.place });
+    this.place.addEventListener("input", () => this.#show());
+    const step = (label, by) => {
+      const button = element("button", { type: "button" }, label);
+      button.addEventListener("click", () => this.#step(by));
+      return button;
+    };
+    const close = element("button", { type: "button" }, said.close);
+    close.addEventListener("click", () => this.close());
+    this.when = element("output");
+    this.failed = element("p", { role: "alert", className: "wrong" });
+    this.root = element("section", { id: "viewer", hidden: true }, this.heading,
+      element("p", { className: "buttons" }, element("label", {}, texts.align.camera, " ", this.camera), close),
+      this.picture, this.place,
+      element("p", { className: "buttons" }, step(said.before, -1), step(said.after, 1), this.when), this.failed);
+  }
+
+  async open(event, title) {
+    this.#event = event;
+    this.root.hidden = false;
+    setText(this.heading, title);
+    setText(this.failed, "");
+    const answer = await fetch(`api/v1/recordings/frames?${new URLSearchParams({ event: event.name })}`)
+      .catch(() => null);
+    const read = await answer?.json().catch(() => null);
+    if (this.#event !== event) return;
+    if (!read?.cameras) {
+      setText(this.failed, texts.refused(read?.error ?? texts.recordings.noPicture));
+      return;
+    }
+    this.#cameras = Object.fromEntries(read.cameras.map(({ camera, times }) =>
+      [camera, times.map((time) => Date.parse(time))]));
+    this.camera.replaceChildren(...read.cameras.map(({ camera }) => element("option", { value: camera }, camera)));
+    this.#choose(Date.parse(event.triggered || event.first));
+    this.root.scrollIntoView({ block: "nearest" });
+    this.place.focus({ preventScroll: true });
+  }
+
+  close() {
+    this.#event = null;
+    this.root.hidden = true;
+  }
+
+  // Shows the picture of the camera that is nearest to the moment of the one before.
+  #choose(moment = this.#times[this.place.valueAsNumber]) {
+    this.#times = this.#cameras[this.camera.value] ?? [];
+    this.place.max = Math.max(0, this.#times.length - 1);
+    const off = this.#times.map((time) => Math.abs(time - moment));
+    this.place.value = Math.max(0, off.indexOf(Math.min(...off)));
+    this.#show();
+  }
+
+  #step(by) {
+    this.place.value = this.place.valueAsNumber + by;
+    this.#show();
+  }
+
+  #show() {
+    const frame = this.place.valueAsNumber, time = this.#times[frame];
+    if (time === undefined) return;
+    const offset = (time - Date.parse(this.#event.triggered || this.#event.first)) / 1000;
+    setText(this.when, texts.recordings.moment(frame + 1, this.#times.length, secondText(time), offset.toFixed(kDigits)));
+    this.picture.alt = texts.recordings.frame(this.camera.value, frame + 1);
+    if (!this.#isLoading) this.#load();
+  }
+
+  // One picture is loaded at a time, then the newest that was asked for.
+  #load() {
+    const query = new URLSearchParams(
+      { event: this.#event.name, camera: this.camera.value, frame: this.place.value });
+    const path = `api/v1/recordings/frame.jpg?${query}`;
+    if (path === this.#path) return;
+    this.#path = path;
+    this.#isLoading = true;
+    this.picture.src = path;
+  }
+
+  #end(failure) {
+    this.#isLoading = false;
+    if (!this.#event) return;
+    setText(this.failed, failure);
+    this.#load();
+  }
+}
