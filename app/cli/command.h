@@ -40,6 +40,7 @@ CliResult<std::string> state_command(const Arguments& arguments);
 CliResult<std::string> command_command(const Arguments& arguments);
 CliResult<std::string> dds_keys_command(const Arguments& arguments);
 CliResult<std::string> bench_command(const Arguments& arguments);
+CliResult<std::string> support_command(const Arguments& arguments);
 CliResult<std::string> configure_command(const Arguments& arguments);
 CliResult<std::string> doctor_command(const Arguments& arguments);
 CliResult<std::string> lines_command(const Arguments& arguments);

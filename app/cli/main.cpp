@@ -35,6 +35,7 @@ constexpr std::array kCommandTable{
                "show the cameras and GPIO lines that are connected, or a domain's appliances",
                list_command},
     Subcommand{"doctor", "check this board: what is wrong, and what mends it", doctor_command},
+    Subcommand{"support", "write one file for technical support, without secrets", support_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
     Subcommand{"events", "list, show, pin and delete recorded events", events_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},

@@ -97,6 +97,7 @@ inline const std::vector<Rule> kRules{
       "app/ports/dds/generated/message_schemas.h"},
      {"nlohmann/", "tl/expected"}},
     {"app/cli", {"proc", "hal", "app"}, {"nlohmann/", "opencv2/", "dds/", "tl/expected"}},
+    {"app/cli/archive", {"proc/image", "app/cli/archive"}, {"tl/expected", "zstd.h"}},
     {"app/ports/dds", port("app/ports/dds"), {"dds/", "tl/expected"}},
     {"app/ports/dds/generated", {"app/ports/dds/generated", "dds"}, {}},
     {"app/ports/dds/security",

@@ -77,6 +77,7 @@ constexpr std::array kNotRun{
     NotRun{"orbwatch lines --safe", "GPIO lines; tests/hil"},
     NotRun{"sudo orbwatch password", "root; tests/app/cli/password_test.cpp"},
     NotRun{"sudo orbwatch password --show", "as the one before"},
+    NotRun{"sudo orbwatch support -o support.tar.zst", "root; tests/app/cli/support_test.cpp"},
 };
 
 std::vector<ReadmeCommand> all_commands() {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/archive/compression.h"
+
+#include <zstd.h>
+
+#include <memory>
+
+namespace orbwatch::app::cli {
+namespace {
+
+struct FreeContext {
+  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+};
+
+constexpr int kLevel = 9;
+
+}  // namespace
+
+Result<std::string> compressed(std::string_view bytes) {
+  const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
+  if (!context) return fail("zstd: out of memory");
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  std::string frame(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress2(context.get(), frame.data(), frame.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(size) != 0) return fail(std::string("zstd: ") + ZSTD_getErrorName(size));
+  frame.resize(size);
+  return frame;
+}
+
+Result<std::string> decompressed(std::string_view bytes, std::size_t most) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) {
+    return fail("is not compressed by zstd, or does not state its size");
+  }
+  if (size > most) return fail("is larger than " + std::to_string(most >> 20) + " MiB");
+  if (ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size()) {
+    return fail("is damaged, cut off, or followed by other bytes");
+  }
+  std::string text(size, '\0');
+  const std::size_t got = ZSTD_decompress(text.data(), text.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(got) != 0) return fail(std::string("is damaged: ") + ZSTD_getErrorName(got));
+  if (got != size) return fail("is damaged: its size is not the stated one");
+  return text;
+}
+
+}  // namespace orbwatch::app::cli
