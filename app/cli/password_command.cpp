@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <termios.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
+#include "app/cli/secret_prompt.h"
 #include "app/files/resolve.h"
 #include "app/files/runtime/site_file.h"
 #include "app/ports/web/access/login/first_code.h"
@@ -37,51 +37,13 @@ struct PasswordOptions {
   bool show = false;
 };
 
-/// Terminal without echo that passes Ctrl-C as a character.
-class SilentTerminal {
- public:
-  SilentTerminal() {
-    if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
-    termios silent = before_;
-    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);
-    is_silent_ = ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent) == 0;
-  }
-  SilentTerminal(const SilentTerminal&) = delete;
-  SilentTerminal& operator=(const SilentTerminal&) = delete;
-  ~SilentTerminal() {
-    if (is_silent_) ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
-  }
-  bool is_silent() const { return is_silent_; }
-
- private:
-  termios before_{};
-  bool is_silent_ = false;
-};
-
-Result<std::string> ask(const std::string& what) {
-  constexpr char kControlC = '\3';
-  std::cerr << what << ": " << std::flush;
-  std::string line;
-  const bool is_read = static_cast<bool>(std::getline(std::cin, line));
-  std::cerr << "\n";
-  if (!is_read || line.find(kControlC) != std::string::npos) return fail("cancelled");
-  return line;
-}
-
 Result<std::string> read_password(const std::string& name) {
   std::string line;
   if (::isatty(STDIN_FILENO) == 0) {
     if (std::getline(std::cin, line)) return line;
     return fail("standard input has no line with the password");
   }
-  const SilentTerminal terminal;
-  if (!terminal.is_silent()) return fail("the terminal cannot be kept from showing the password");
-  auto first = ask("New password of " + name);
-  if (!first) return first;
-  const auto second = ask("Again");
-  if (!second) return second;
-  if (*first != *second) return fail("the two are not the same; nothing was changed");
-  return first;
+  return ask_new_secret("New password of " + name);
 }
 
 /// Role of a new user; the first user is administrator.

@@ -98,6 +98,7 @@ inline const std::vector<Rule> kRules{
      {"nlohmann/", "tl/expected"}},
     {"app/cli", {"proc", "hal", "app"}, {"nlohmann/", "opencv2/", "dds/", "tl/expected"}},
     {"app/cli/archive", {"proc/image", "app/cli/archive"}, {"tl/expected", "zstd.h"}},
+    {"app/cli/backup", {"proc", "hal", "app"}, {"nlohmann/", "sodium.h", "tl/expected"}},
     {"app/ports/dds", port("app/ports/dds"), {"dds/", "tl/expected"}},
     {"app/ports/dds/generated", {"app/ports/dds/generated", "dds"}, {}},
     {"app/ports/dds/security",

@@ -78,6 +78,11 @@ constexpr std::array kNotRun{
     NotRun{"sudo orbwatch password", "root; tests/app/cli/password_test.cpp"},
     NotRun{"sudo orbwatch password --show", "as the one before"},
     NotRun{"sudo orbwatch support -o support.tar.zst", "root; tests/app/cli/support_test.cpp"},
+    NotRun{"sudo orbwatch backup -o backup.tar.zst", "root; tests/app/cli/backup_test.cpp"},
+    NotRun{"sudo orbwatch restore backup.tar.zst --check", "as the one before"},
+    NotRun{"sudo orbwatch restore backup.tar.zst --camera thermal=SN-4711", "as the one before"},
+    NotRun{"sudo systemctl stop orbwatch", "the service of this computer"},
+    NotRun{"sudo systemctl start orbwatch", "the service of this computer"},
 };
 
 std::vector<ReadmeCommand> all_commands() {

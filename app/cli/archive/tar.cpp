@@ -15,7 +15,7 @@ namespace orbwatch::app::cli {
 namespace {
 
 constexpr std::size_t kBlock = 512;
-constexpr std::string_view kMagic("ustar\00000", 8);  // with the version
+constexpr std::string_view kMagic("ustar\00000", 8);  // and the version
 constexpr char kRegular = '0', kRegularOfOld = '\0';
 constexpr mode_t kPermissions = 07777;
 

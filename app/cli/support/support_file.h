@@ -17,7 +17,7 @@ namespace orbwatch::app::cli::support {
 struct SupportSources {
   doctor::Sources board;
   std::filesystem::path config;  ///< configuration file of orbwatchd
-  std::string versions;          ///< of the program and its libraries
+  std::string versions;          ///< program and libraries, a line each
   std::string environment;  ///< entries NAME=VALUE of this process, each with a zero at its end
   /// Body of the answer of the running daemon's HTTP interface. Error: it gives none.
   std::function<Result<std::string>(const WebSettings& web, const std::string& target)> page;

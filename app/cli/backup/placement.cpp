@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/backup/placement.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "app/cli/archive/tar.h"
+#include "app/cli/backup/backup_file.h"
+#include "hal/atomic_file.h"
+#include "hal/regular_file.h"
+#include "hal/thread/file_descriptor.h"
+
+namespace orbwatch::app::cli::backup {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t kPermissions = 07777;
+/// Entry of the undo file with the names of files that did not exist, each with a line's end.
+constexpr const char* kAbsent = "absent";
+
+tl::unexpected<Error> cannot(const fs::path& path, const std::string& what) {
+  return fail(path.string() + ": cannot be " + what + ": " + std::system_category().message(errno));
+}
+
+/// Error: something that is not a folder, such as a link to one, is above the file.
+Result<> check_folders(const SitePlaces& places, const std::string& name) {
+  const fs::path& top = places.folder_of(name);
+  fs::path folder = top;
+  for (const fs::path& part : places.at(name).lexically_relative(top).parent_path()) {
+    folder /= part;
+    struct stat about {};
+    if (::lstat(folder.c_str(), &about) != 0) {
+      if (errno == ENOENT) return {};
+      return cannot(folder, "read");
+    }
+    if (!S_ISDIR(about.st_mode)) return fail(folder.string() + ": is not a folder");
+  }
+  return {};
+}
+
+/// The file as it is; nullopt: there is none.
+Result<std::optional<ArchivedFile>> present(const SitePlaces& places, const std::string& name) {
+  if (auto right = check_folders(places, name); !right) return tl::unexpected(right.error());
+  const fs::path file = places.at(name);
+  const hal::FileDescriptor opened(
+      ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!opened.is_open()) {
+    if (errno == ENOENT) return std::nullopt;
+    if (errno == ELOOP) return fail(file.string() + ": is a link");
+    return cannot(file, "read");
+  }
+  struct stat about {};
+  if (::fstat(opened.get(), &about) != 0) return cannot(file, "read");
+  auto bytes = hal::read_regular_file(opened, file, kMostBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return ArchivedFile{name, std::move(*bytes), about.st_mode & kPermissions};
+}
+
+/// The files that are going to be replaced, and the names of those that do not exist.
+Result<Archive> kept_files(const SitePlaces& places, const Archive& files) {
+  Archive kept{{kAbsent, ""}};
+  for (const ArchivedFile& file : files) {
+    auto old = present(places, file.name);
+    if (!old) return tl::unexpected(old.error());
+    if (*old) {
+      kept.push_back(std::move(**old));
+    } else {
+      kept.front().bytes += file.name + "\n";
+    }
+  }
+  return kept;
+}
+
+/// Makes the missing folders above a file.
+Result<> make_folders(const fs::path& file, DiskChanges& disk) {
+  const fs::path folder = file.parent_path();
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return {};
+  if (auto made = make_folders(folder, disk); !made) return made;
+  return disk.make_folder(folder);
+}
+
+Result<> write_files(const SitePlaces& places, const Archive& files, DiskChanges& disk) {
+  for (const ArchivedFile& file : files) {
+    if (auto right = check_folders(places, file.name); !right) return right;
+    const fs::path path = places.at(file.name);
+    auto written =
+        make_folders(path, disk).and_then([&] { return disk.write(path, file.bytes, file.mode); });
+    if (!written) return written;
+  }
+  return {};
+}
+
+/// Removes a file that did not exist, and folders that are empty without it.
+Result<> remove_added(const SitePlaces& places, const std::string& name, DiskChanges& disk) {
+  if (auto right = check_folders(places, name); !right) return right;
+  fs::path path = places.at(name);
+  if (auto removed = disk.remove(path); !removed) return removed;
+  const fs::path& top = places.folder_of(name);
+  for (path = path.parent_path(); path != top; path = path.parent_path()) {
+    std::error_code absent;
+    const bool is_empty = fs::is_empty(path, absent);
+    if (absent) continue;
+    if (!is_empty) break;
+    if (auto removed = disk.remove(path); !removed) return removed;
+  }
+  return {};
+}
+
+Result<> put_back(const SitePlaces& places, Archive kept, DiskChanges& disk) {
+  if (kept.empty() || kept.front().name != kAbsent) return fail("is damaged");
+  const std::string absent = std::move(kept.front().bytes);
+  kept.erase(kept.begin());
+  for (const ArchivedFile& file : kept) {
+    if (auto placed = check_place(file.name); !placed) return placed;
+  }
+  if (auto written = write_files(places, kept, disk); !written) return written;
+  for (std::size_t at = 0; at < absent.size();) {
+    const std::size_t end = std::min(absent.find('\n', at), absent.size());
+    const std::string name = absent.substr(at, end - at);
+    auto removed = check_place(name).and_then([&] { return remove_added(places, name, disk); });
+    if (!removed) return removed;
+    at = end + 1;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<> DiskChanges::write(const fs::path& file, std::string_view bytes, mode_t mode) {
+  if (auto written = hal::write_file(file, bytes, hal::FileAccess::Owner); !written) return written;
+  const hal::FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  const bool is_set =
+      opened.is_open() && ::fchmod(opened.get(), mode) == 0 && ::fsync(opened.get()) == 0;
+  if (!is_set) return cannot(file, "given its mode");
+  return {};
+}
+
+Result<> DiskChanges::remove(const fs::path& path) {
+  std::error_code error;
+  const bool was_there = fs::remove(path, error);
+  if (error) return fail(path.string() + ": cannot be removed: " + error.message());
+  if (!was_there) return {};
+  return hal::sync_folder(path.parent_path());
+}
+
+Result<> DiskChanges::make_folder(const fs::path& folder) {
+  struct stat above {};
+  constexpr mode_t kUsual = 0755;
+  if (::stat(folder.parent_path().c_str(), &above) != 0) return cannot(folder, "made");
+  if (::mkdir(folder.c_str(), kUsual) != 0) return cannot(folder, "made");
+  const bool is_given =
+      ::geteuid() != 0 || ::lchown(folder.c_str(), above.st_uid, above.st_gid) == 0;
+  if (!is_given || ::chmod(folder.c_str(), above.st_mode & kPermissions) != 0) {
+    return cannot(folder, "given its owner");
+  }
+  return hal::sync_folder(folder.parent_path());
+}
+
+fs::path undo_file(const SitePlaces& places) { return places.state / "restore-undo.tar"; }
+
+Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk) {
+  const auto kept = kept_files(places, files);
+  if (!kept) return tl::unexpected(kept.error());
+  const fs::path undo = undo_file(places);
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  constexpr mode_t kOwner = 0600;
+  bool is_written = false;
+  const auto done =
+      tar_of(*kept, now)
+          .and_then([&](const std::string& tar) {
+            return make_folders(undo, disk).and_then([&] { return disk.write(undo, tar, kOwner); });
+          })
+          .and_then([&] { return write_files(places, files, disk); })
+          .and_then([&] {
+            is_written = true;
+            return disk.remove(undo);
+          });
+  if (done) return {};
+  const std::string& reason = done.error().message;
+  const auto undone = undo_unfinished(places, disk);
+  if (!undone) {
+    return fail(reason + "; the old files are not back yet, because " + undone.error().message +
+                "; repeat it by `orbwatch restore --undo`");
+  }
+  if (is_written && !*undone) return fail(reason + "; the new files are in place nevertheless");
+  return fail(reason + "; nothing was changed");
+}
+
+Result<bool> undo_unfinished(const SitePlaces& places, DiskChanges& disk) {
+  const fs::path undo = undo_file(places);
+  const hal::FileDescriptor opened(
+      ::open(undo.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!opened.is_open() && errno == ENOENT) return false;
+  if (!opened.is_open()) return cannot(undo, "read");
+  constexpr std::size_t kMostKept = 2 * kMostBytes;
+  auto done = hal::read_regular_file(opened, undo, kMostKept)
+                  .and_then([](const std::string& tar) { return parse_tar(tar); })
+                  .and_then([&](Archive kept) { return put_back(places, std::move(kept), disk); })
+                  .and_then([&] { return disk.remove(undo); });
+  if (!done) return fail(undo.string() + ": " + done.error().message);
+  return true;
+}
+
+}  // namespace orbwatch::app::cli::backup

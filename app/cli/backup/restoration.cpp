@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/backup/restoration.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "app/files/camera_edit.h"
+#include "app/files/resolve.h"
+#include "app/state/state_folder.h"
+#include "hal/host.h"
+#include "hal/network.h"
+#include "hal/regular_file.h"
+
+namespace orbwatch::app::cli::backup {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_in_file(const files::BackEndSettings& back_end) {
+  return std::visit([](const auto& settings) { return std::string(settings.kName); }, back_end);
+}
+
+/// The files of a backup, those of the site under the name that `config` has, that one first.
+Result<Archive> renamed_files(const Backup& backup, const fs::path& config) {
+  Archive files = backup.files;
+  files.insert(files.end(), backup.secrets.begin(), backup.secrets.end());
+  const auto site = std::ranges::find(files, std::string(kConfiguration) + backup.manifest.site,
+                                      &ArchivedFile::name);
+  if (site == files.end()) return fail("has no configuration file " + backup.manifest.site);
+  const std::string name = std::string(kConfiguration) + config.filename().string();
+  const bool is_taken =
+      site->name != name && std::ranges::count(files, name, &ArchivedFile::name) > 0;
+  if (is_taken) return fail("has a file " + name + " besides its configuration file");
+  site->name = name;
+  std::rotate(files.begin(), site, site + 1);
+  return files;
+}
+
+/// The texts of the files where they are going to be.
+files::FileTexts texts_of(const SitePlaces& places, const Archive& archive) {
+  files::FileTexts texts;
+  for (const ArchivedFile& file : archive) texts[places.at(file.name)] = file.bytes;
+  return texts;
+}
+
+/// Sets the device of a camera in the text of the configuration file.
+Result<> set_address(const files::Configuration& site, const CameraAddress& wanted,
+                     std::string& text) {
+  const auto camera = std::ranges::find(site.cameras, wanted.camera, &files::CameraSettings::name);
+  if (camera == site.cameras.end()) return fail("there is no camera " + wanted.camera);
+  const std::string_view key = files::facts_of(camera->back_end).address_key;
+  if (key.empty()) return fail("camera " + wanted.camera + " has no device");
+  return files::with_camera_address(text, wanted.camera, name_in_file(camera->back_end), key,
+                                    wanted.address)
+      .map([&text](std::string changed) { text = std::move(changed); });
+}
+
+void note_address(const std::string& table, const std::string& address,
+                  std::vector<std::string>& notes) {
+  if (hal::is_unspecified(address) || hal::is_loopback(address)) return;
+  notes.push_back(table + " address = " + address + ": must be an address of this device");
+}
+
+std::vector<std::string> device_notes(const files::Configuration& site, const Manifest& manifest) {
+  std::vector<std::string> notes;
+  for (const auto& camera : site.cameras) {
+    const std::string_view key = files::facts_of(camera.back_end).address_key;
+    if (key.empty()) continue;
+    notes.push_back("camera " + camera.name + ": " + name_in_file(camera.back_end) + "." +
+                    std::string(key) + " = " + files::address_of(camera.back_end) + "; --camera " +
+                    camera.name + "=ADDRESS sets another");
+  }
+  const auto& web = std::get<WebSettings>(site.sinks);
+  note_address("[web]", web.address, notes);
+  note_address("[modbus]", std::get<ModbusSettings>(site.sinks).address, notes);
+  for (const std::string& name : web.names) {
+    notes.push_back("[web] names: " + name + ": must lead to this device");
+  }
+  if (manifest.host != hal::host_name()) {
+    notes.push_back("host name: " + hal::host_name() + "; that of the backup is " + manifest.host);
+  }
+  return notes;
+}
+
+}  // namespace
+
+Result<SitePlaces> present_places(const fs::path& config) {
+  const fs::path file = full_path(config);
+  const auto site = files::read_site(file);
+  return state_folder(site ? site->state_folder : fs::path(), file).map([&](const fs::path& state) {
+    return SitePlaces{file.parent_path(), full_path(state)};
+  });
+}
+
+Result<Restoration> restoration_of(const Backup& backup, const fs::path& config,
+                                   const std::vector<CameraAddress>& cameras) {
+  const fs::path file = full_path(config);
+  auto present = present_places(file);
+  if (!present) return tl::unexpected(present.error());
+  auto files = renamed_files(backup, file);
+  if (!files) return tl::unexpected(files.error());
+  auto site = files::resolve(file, texts_of(*present, *files));
+  if (site && !cameras.empty()) {
+    for (const CameraAddress& wanted : cameras) {
+      auto set = set_address(site->site, wanted, files->front().bytes);
+      if (!set) return tl::unexpected(set.error());
+    }
+    site = files::resolve(file, texts_of(*present, *files));
+  }
+  if (!site) return fail("its configuration is not valid here: " + site.error().message);
+  const auto state = state_folder(site->site.state_folder, file);
+  if (!state) return tl::unexpected(state.error());
+  std::error_code none;
+  if (!fs::exists(file, none)) present->state = full_path(*state);
+  if (present->state != full_path(*state)) {
+    return fail("its state_folder is " + state->string() + ", that of this device " +
+                present->state.string() + "; set state_folder of " + file.string() +
+                " to the former first");
+  }
+  return Restoration{std::move(*present), std::move(*files),
+                     device_notes(site->site, backup.manifest)};
+}
+
+std::string changes_text(const Restoration& restoration) {
+  std::string text;
+  for (const ArchivedFile& file : restoration.files) {
+    const fs::path path = restoration.places.at(file.name);
+    std::error_code none;
+    const bool is_there = fs::exists(fs::symlink_status(path, none));
+    const auto old = hal::read_regular_file(path, kMostBytes);
+    const bool is_same = old && *old == file.bytes;
+    text += std::string(!is_there ? "new      "
+                        : is_same ? "same     "
+                                  : "changed  ") +
+            path.string() + "\n";
+  }
+  return text;
+}
+
+}  // namespace orbwatch::app::cli::backup

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/cli/archive/archive.h"
+#include "app/cli/backup/backup_file.h"
+#include "app/cli/backup/site_places.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::cli::backup {
+
+/// Another device for a camera of a restored site.
+struct CameraAddress {
+  std::string camera;
+  std::string address;
+};
+
+/// A backup that was checked for this appliance.
+struct Restoration {
+  SitePlaces places;
+  Archive files;                          ///< the configuration file first
+  std::vector<std::string> device_notes;  ///< lines about settings of one device
+};
+
+/// The places of the site `config` at present: without a readable configuration its state is in the
+/// usual folder. Error: as state_folder().
+Result<SitePlaces> present_places(const std::filesystem::path& config);
+
+/// Checks a backup for the configuration file `config`, which may not exist yet, and sets the
+/// cameras' devices. Errors: the configuration of the backup is not valid here; a camera without an
+/// address; another state folder than at present.
+Result<Restoration> restoration_of(const Backup& backup, const std::filesystem::path& config,
+                                   const std::vector<CameraAddress>& cameras);
+
+/// Lines "new", "changed" or "same" with the file.
+std::string changes_text(const Restoration& restoration);
+
+}  // namespace orbwatch::app::cli::backup

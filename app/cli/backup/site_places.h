@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::app::cli::backup {
+
+inline constexpr std::string_view kConfiguration = "configuration/";
+inline constexpr std::string_view kState = "state/";
+
+/// Use of a file of the state folder in a backup.
+enum class StateUse {
+  None,   ///< belongs to the device or the moment
+  Plain,  ///< alignments, and what they are compared with
+  Secret  ///< users, and the key of the page's certificate
+};
+
+/// `file` is the name in the state folder.
+StateUse use_of(std::string_view file);
+
+/// Folders of a site, and the names of their files in a backup.
+struct SitePlaces {
+  std::filesystem::path configuration;
+  std::filesystem::path state;
+
+  /// The file of a name that check_place() accepts.
+  std::filesystem::path at(const std::string& name) const;
+  /// The folder that has it.
+  const std::filesystem::path& folder_of(const std::string& name) const;
+};
+
+/// The path as absolute, without "." and ".."; links are not followed.
+std::filesystem::path full_path(const std::filesystem::path& path);
+
+/// Error: not configuration/FILE or state/FILE, FILE with a use. Reentrant.
+Result<> check_place(const std::string& name);
+
+}  // namespace orbwatch::app::cli::backup

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "app/cli/backup/placement.h"
+#include "app/files/resolve.h"
+#include "app/state/state_folder.h"
+#include "hal/regular_file.h"
+#include "tests/app/cli/backup/site.h"
+#include "tests/app/cli/command_line.h"
+#include "tests/app/files/machine_files.h"
+
+/// Runs `orbwatch backup` on one device and `orbwatch restore` on another, like an installer.
+namespace orbwatch::tests {
+namespace {
+
+using app::cli::backup::states_below;
+using app::cli::backup::write_file;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class BackupProgram : public CommandLine {
+ protected:
+  void SetUp() override {
+    write_file(path("old/rig.toml"), app::files::kRig);
+    write_file(path("old/recipes/one.toml"), "note");
+    write_file(path("old/keys/key.pem"), "key-of-kim", 0640);
+    write_file(path("old/site.toml"),
+               app::files::replaced("back_end = \"replay\"\n[camera.replay]\nsource = \"pictures\"",
+                                    "back_end = \"genicam\"\nwidth = 100\nheight = 80\n"
+                                    "[camera.genicam]\ncamera = \"SN-1\" # left") +
+                   "[web]\naddress = \"192.168.7.7\"\n");
+    write_file(path("old-state/users.json"), "hash-of-kim", 0600);
+    write_file(path("old-state/commands"), "of the old device", 0600);
+    std::filesystem::create_directories(path("new"));
+    write("passphrase", std::string("correct horse battery\n"));
+  }
+  void TearDown() override { ::unsetenv("STATE_DIRECTORY"); }
+
+  int run_on(const std::string& device, std::vector<std::string> arguments) {
+    ::setenv("STATE_DIRECTORY", path(device + "-state").c_str(), 1);
+    arguments.insert(arguments.end(), {"--config", path(device + "/site.toml")});
+    return run(arguments);
+  }
+  int back_up(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"backup", "-o", path("backup.tar.zst")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_on("old", arguments);
+  }
+  int restore(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"restore", path("backup.tar.zst")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_on("new", arguments);
+  }
+  std::string full(const std::string& name) const {
+    return app::cli::backup::full_path(path(name)).string();
+  }
+  std::vector<std::string> with_passphrase() { return {"--passphrase-file", path("passphrase")}; }
+};
+
+TEST_F(BackupProgram, AnotherDeviceTakesOver) {
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("encrypted  state/users.json"),
+                          HasSubstr("encrypted  configuration/keys/key.pem")));
+  struct stat about {};
+  ASSERT_EQ(::stat(path("backup.tar.zst").c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 07777U, 0600U);
+  ASSERT_EQ(restore(with_passphrase()), 0) << said;
+  EXPECT_EQ(states_below(path("new")), states_below(path("old")));
+  auto state = states_below(path("new-state"));
+  state.erase("reserved");
+  EXPECT_EQ(state.size(), 1U) << "nothing of the old device itself";
+  EXPECT_EQ(state["users.json"].first, "hash-of-kim");
+  EXPECT_THAT(said, AllOf(HasSubstr("depends on the device: camera a: genicam.camera = SN-1"),
+                          HasSubstr("depends on the device: [web] address = 192.168.7.7"),
+                          HasSubstr("systemctl start orbwatch")));
+}
+
+TEST_F(BackupProgram, CamerasOfTheNewDeviceAreSetByOption) {
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  auto options = with_passphrase();
+  options.insert(options.end(), {"--camera", "a=SN-2"});
+  ASSERT_EQ(restore(options), 0) << said;
+  const auto text = hal::read_regular_file(path("new/site.toml"));
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text, HasSubstr("camera = \"SN-2\" # left"));
+  for (const auto& [camera, reason] : std::vector<std::pair<std::string, std::string>>{
+           {"b=SN-2", "there is no camera b"}, {"a", "NAME=ADDRESS"}, {"=x", "NAME=ADDRESS"}}) {
+    options.back() = camera;
+    EXPECT_GT(restore(options), 0);
+    EXPECT_THAT(said, HasSubstr(reason));
+  }
+}
+
+TEST_F(BackupProgram, CheckChangesNothingAndShowsTheChanges) {
+  ASSERT_EQ(back_up({"--without-secrets"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("left out   state/users.json"));
+  ASSERT_EQ(restore({"--check"}), 0) << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("new      " + full("new/site.toml")),
+                          HasSubstr("not restored, a secret: state/users.json"),
+                          Not(HasSubstr("systemctl"))));
+  EXPECT_TRUE(states_below(path("new")).empty());
+  ASSERT_EQ(restore(), 0) << said;
+  write_file(path("new/rig.toml"), app::files::kRig + "# changed\n");
+  write_file(path("new-state/users.json"), "of the new device", 0600);
+  ASSERT_EQ(restore({"--check"}), 0) << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("same     " + full("new/site.toml")),
+                          HasSubstr("changed  " + full("new/rig.toml"))));
+  ASSERT_EQ(restore(), 0) << said;
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "of the new device");
+}
+
+TEST_F(BackupProgram, WhatCannotBeRestoredChangesNothing) {
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  write("wrong", std::string("another passphrase\n"));
+  EXPECT_EQ(restore({"--passphrase-file", path("wrong")}), 1);
+  EXPECT_THAT(said, HasSubstr("backup.tar.zst: the passphrase is wrong"));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  const auto reserved = app::reserve(path("new-state"));
+  ASSERT_TRUE(reserved);
+  EXPECT_EQ(restore(with_passphrase()), 1);
+  EXPECT_THAT(said, HasSubstr("stop it first: systemctl stop orbwatch"));
+  write("backup.tar.zst", std::string("hostile"));
+  EXPECT_EQ(restore(), 1);
+  EXPECT_THAT(said, HasSubstr("backup.tar.zst: is not compressed"));
+  EXPECT_TRUE(states_below(path("new")).empty());
+}
+
+TEST_F(BackupProgram, AnInterruptedRestoreIsUndone) {
+  class Interrupted : public app::cli::backup::DiskChanges {
+   public:
+    Result<> remove(const std::filesystem::path&) override { throw std::runtime_error("cut"); }
+  } disk;
+  write_file(path("new-state/users.json"), "of the new device", 0600);
+  const app::cli::backup::SitePlaces places{path("new"), path("new-state")};
+  EXPECT_THROW(
+      static_cast<void>(replace_files(
+          places, {{"configuration/site.toml", "half"}, {"state/users.json", "half"}}, disk)),
+      std::runtime_error);
+  EXPECT_FALSE(states_below(path("new")).empty());
+  ASSERT_EQ(run_on("new", {"restore", "--undo"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("the old files are back"));
+  EXPECT_TRUE(states_below(path("new")).empty());
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "of the new device");
+  ASSERT_EQ(run_on("new", {"restore", "--undo"}), 0) << said;
+  EXPECT_EQ(said, "");
+}
+
+TEST_F(BackupProgram, AConfigurationThatIsNotValidIsRefused) {
+  ASSERT_EQ(back_up({"--without-secrets"}), 0) << said;
+  write_file(path("old/site.toml"), "rig = \"none.toml\"\n");
+  EXPECT_EQ(back_up({"--without-secrets"}), 1) << "would not be restored";
+  EXPECT_EQ(run_on("old", {"backup"}), 2);
+  EXPECT_EQ(back_up({"--without-secrets", "--passphrase-file", "x"}), 2);
+  EXPECT_EQ(run_on("new", {"restore"}), 2);
+}
+
+TEST_F(BackupProgram, AShortPassphraseIsRefused) {
+  write("passphrase", std::string("short\n"));
+  EXPECT_EQ(back_up(with_passphrase()), 1);
+  EXPECT_THAT(said, HasSubstr("at least 12"));
+  EXPECT_FALSE(std::filesystem::exists(path("backup.tar.zst")));
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
