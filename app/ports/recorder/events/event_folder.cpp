@@ -87,7 +87,7 @@ Result<> EventFolder::prepare() {
     if (!recovered) given_up_.insert(folder);
     log_line(recovered ? LogLevel::Info : LogLevel::Warning,
              "recorder: " + folder.string() +
-                 (recovered ? " was not recorded to its end; it is finished now"
+                 (recovered ? " was not recorded to its end; what there is of it is kept"
                             : " cannot be finished: " + recovered.error().message));
   }
   if (error) return failure(root_, error);

@@ -24,7 +24,7 @@ struct EventSummary {
   double layer = signals::kNotValid;                            ///< of the part
   std::vector<std::pair<std::string, std::uint64_t>> pictures;  ///< by camera
   std::uint64_t lost = 0;       ///< pictures that found no room while it was recorded
-  bool has_beginning = true;    ///< false: pictures before the trigger were replaced before
+  bool has_beginning = true;    ///< false: pictures before the trigger were not there any more
   bool is_interrupted = false;  ///< it was not recorded to its end
   std::vector<std::pair<std::string, std::string>> versions;
 };

@@ -42,7 +42,7 @@ std::optional<std::uint64_t> FrameRing::place_for(std::size_t bytes) {
     const bool has_slot = behind_ - oldest_ < slots_.size();
     if (has_slot && begin + bytes <= slot(oldest_).begin + size) break;
     if (is_held(oldest_)) return std::nullopt;
-    replaced_ = slot(oldest_++).frame.set_stamp;
+    missing_ = std::max(missing_, slot(oldest_++).frame.set_stamp);
   }
   return begin;
 }
@@ -54,6 +54,7 @@ bool FrameRing::put(const KeptFrame& frame) {
     const std::lock_guard lock(mutex_);
     begin = place_for(bytes);
     if (!begin) {
+      missing_ = frame.set_stamp;
       ++lost_;
       return false;
     }
@@ -79,7 +80,7 @@ std::optional<FrameRing::Window> FrameRing::hold(hal::TimePoint first, hal::Time
   std::uint64_t next = oldest_;
   while (next != behind_ && slot(next).frame.set_stamp < first) ++next;
   *free = {.is_read = true, .is_closed = false, .first = first, .last = last, .next = next};
-  return Window{static_cast<std::size_t>(free - windows_.begin()), replaced_ < first};
+  return Window{static_cast<std::size_t>(free - windows_.begin()), missing_ < first};
 }
 
 bool FrameRing::extend(std::size_t window, hal::TimePoint last) {

@@ -54,7 +54,7 @@ class FrameRing {
   /// those to come, until it is released.
   struct Window {
     std::size_t number = 0;
-    bool is_whole = true;  ///< false: pictures of that time were replaced before
+    bool is_whole = true;  ///< false: pictures of that time were replaced or lost before
   };
   /// Nullopt: there are too many.
   std::optional<Window> hold(hal::TimePoint first, hal::TimePoint last);
@@ -101,7 +101,7 @@ class FrameRing {
   // Guarded by mutex_; slots from oldest_ to behind_ are in use.
   std::uint64_t oldest_ = 0, behind_ = 0;
   std::array<Held, kMostWindows> windows_;
-  hal::TimePoint replaced_{hal::TimePoint::min()};  ///< frame set of the newest replaced picture
+  hal::TimePoint missing_{hal::TimePoint::min()};  ///< frame set of the newest replaced or lost one
   std::uint64_t lost_ = 0;
 };
 

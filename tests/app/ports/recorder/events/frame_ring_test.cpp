@@ -84,6 +84,8 @@ TEST(FrameRing, WhatAWindowHoldsIsNotReplacedAndTheNewOneIsLostAndCounted) {
   for (std::uint64_t n = 31; n <= 45; ++n) EXPECT_FALSE(put(ring, n));
   EXPECT_EQ(ring.use().lost, 15U);
   EXPECT_EQ(ring.use().bytes, 20 * kBytes);
+  EXPECT_FALSE(ring.hold(at(40), at(50))->is_whole) << "31 to 45 are missing";
+  EXPECT_TRUE(ring.hold(at(46), at(50))->is_whole);
   EXPECT_EQ(read_all(ring, window->number), from_to(11, 30));
   EXPECT_TRUE(put(ring, 46)) << "what was read makes room";
   EXPECT_EQ(read_all(ring, window->number), from_to(46, 46));
