@@ -21,6 +21,7 @@
 #include "tests/app/pipeline/measurement/measured_recipe.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 #include "tests/app/pipeline/views/thermal_view.h"
+#include "tests/app/ports/recorder/events/recorded_machine.h"
 
 namespace {
 
@@ -116,6 +117,42 @@ TEST(FramePath, DoesNotAllocate) {
     mailbox.put(std::move(view));
   }
   EXPECT_EQ(allocations, before);
+}
+
+TEST(FramePath, KeepsPicturesForEventsWithoutAllocating) {
+  using orbwatch::tests::RecordedMachine;
+  recorder::EventSettings events;
+  events.ring_mib = 1;
+  events.longest = std::chrono::seconds(20);
+  const RecorderSettings settings{.folder = "unused", .events = events};
+  const StatusNames names;
+  const RecordedTexts texts;
+  recorder::RecorderCounters counters;
+  recorder::EventRecorder recorded(settings, RecordedMachine::cameras(), names, texts, counters);
+  std::vector<hal::FrameSet> sets(200);
+  for (std::uint64_t n = 0; n < sets.size(); ++n) {
+    sets[n].id = n + 1;
+    sets[n].stamp = RecordedMachine::at(100 * n);  // a second apart
+    sets[n].frames[0] = orbwatch::tests::painted_frame(n, 0, sets[n].stamp, RecordedMachine::kWidth,
+                                                       RecordedMachine::kHeight);
+  }
+  Status status;
+  AlarmNotice notice;
+  const std::size_t before = allocations;
+  for (const hal::FrameSet& set : sets) {
+    recorded.accept_frames(set);
+    notice.stamp = status.stamp = set.stamp;
+    notice.frame_set = status.frame_set = set.id;
+    if (set.id % 10 == 0) recorded.accept_event(notice);
+    recorded.request();
+    recorded.accept(status);
+  }
+  EXPECT_EQ(allocations, before);
+  recorder::RecorderStatistics statistics;
+  recorded.add_figures(statistics);
+  EXPECT_GT(statistics.triggers_joined, 0U);
+  EXPECT_GT(statistics.recordings_lost, 0U) << "nobody reads the windows";
+  EXPECT_GT(statistics.ring_used, 0.0);
 }
 
 TEST(FramePath, LogsWithoutAllocation) {
