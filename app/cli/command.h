@@ -31,6 +31,7 @@ CliResult<std::string> advise_command(const Arguments& arguments);
 CliResult<std::string> detect_command(const Arguments& arguments);
 CliResult<std::string> register_command(const Arguments& arguments);
 CliResult<std::string> drift_command(const Arguments& arguments);
+CliResult<std::string> replay_command(const Arguments& arguments);
 CliResult<std::string> place_command(const Arguments& arguments);
 CliResult<std::string> setup_command(const Arguments& arguments);
 CliResult<std::string> calibration_command(const Arguments& arguments);

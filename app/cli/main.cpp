@@ -22,6 +22,7 @@ constexpr std::array kCommandTable{
     Subcommand{"place", "find out where cameras stand, by points that the ball shows",
                place_command},
     Subcommand{"drift", "whether a camera or the ball has moved against the rig", drift_command},
+    Subcommand{"replay", "measure a recording again, also with another recipe", replay_command},
     Subcommand{"calibration", "show and restore the alignments that orbwatchd accepted",
                calibration_command},
     Subcommand{"subscribe", "read views and process state of a running orbwatchd over DDS",

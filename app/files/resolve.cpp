@@ -253,9 +253,11 @@ Result<> calibrate(Resolved& resolved, TextFiles& files) {
 }
 
 Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const std::string& name,
-                              const std::filesystem::path& folder) {
+                              const std::filesystem::path& folder,
+                              const std::optional<std::filesystem::path>& state = {}) {
   Finding finding{name, folder};
   Resolved resolved;
+  resolved.file = folder / std::filesystem::path(name).filename();
   read_toml(text, resolved.site, finding);
   if (finding.message) return fail(*finding.message);
   auto rig = load_rig(resolved.site.rig.path, files);
@@ -268,9 +270,9 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   if (finding.message) return fail(*finding.message);
   resolved.rig = std::move(*rig);
   // Empty where it is another machine's: files of this one by themselves are right.
-  resolved.state_folder =
-      state_folder(resolved.site.state_folder, folder / std::filesystem::path(name).filename())
-          .value_or(std::filesystem::path());
+  resolved.state_folder = state ? *state
+                                : state_folder(resolved.site.state_folder, resolved.file)
+                                      .value_or(std::filesystem::path());
   const bool has_state = !resolved.state_folder.empty();
   if (has_state) {
     if (auto done = calibrate(resolved, files); !done) return tl::unexpected(done.error());
@@ -294,8 +296,8 @@ Result<> resolve_references(Resolved& resolved, const std::string& name) {
   return {};
 }
 
-Result<Configuration> read_site(const std::filesystem::path& file) {
-  TextFiles files;
+Result<Configuration> read_site(const std::filesystem::path& file, const FileTexts& instead) {
+  TextFiles files(instead);
   const auto text = files.read(file, "a TOML file");
   if (!text) return tl::unexpected(text.error());
   Finding finding{file.string(), file.parent_path()};
@@ -305,10 +307,11 @@ Result<Configuration> read_site(const std::filesystem::path& file) {
   return site;
 }
 
-Result<Resolved> resolve(const std::filesystem::path& file, const FileTexts& instead) {
+Result<Resolved> resolve(const std::filesystem::path& file, const FileTexts& instead,
+                         const std::optional<std::filesystem::path>& state_folder) {
   TextFiles files(instead);
   return files.read(file, "a TOML file").and_then([&](const std::string& text) {
-    return resolve_with(files, text, file.string(), file.parent_path());
+    return resolve_with(files, text, file.string(), file.parent_path(), state_folder);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace orbwatch::app::files {
 /// All files of a site, read together and checked against each other: every reference has its
 /// index.
 struct Resolved {
-  Configuration site;  ///< the configuration file
+  Configuration site;          ///< the configuration file
+  std::filesystem::path file;  ///< its path
   /// Folder of state that survives a restart, from the configuration file and the environment, see
   /// state_folder(). Empty: it belongs to another configuration, and alignments are not applied.
   std::filesystem::path state_folder;
@@ -40,13 +42,14 @@ struct Resolved {
   }
 };
 
-/// Reads only the configuration file, unresolved. Errors: as resolve().
-Result<Configuration> read_site(const std::filesystem::path& file);
+/// Reads only the configuration file, unresolved. Arguments and errors: as resolve().
+Result<Configuration> read_site(const std::filesystem::path& file, const FileTexts& instead = {});
 
 /// Reads a configuration file and all files that it names. Relative paths are based on the folder
 /// of the file that states them. The error states file, line, key, reason and the allowed values.
-/// `instead`: texts that replace files.
-Result<Resolved> resolve(const std::filesystem::path& file, const FileTexts& instead = {});
+/// `instead`: texts that replace files. `state_folder`: in place of that of the configuration.
+Result<Resolved> resolve(const std::filesystem::path& file, const FileTexts& instead = {},
+                         const std::optional<std::filesystem::path>& state_folder = {});
 
 /// Resolves text in place of a file named `name`, with paths relative to `folder`.
 Result<Resolved> resolve_text(const std::string& text, const std::string& name,

@@ -2,7 +2,7 @@
 _orbwatch() {
   local words="" line="${COMP_WORDS[*]:1:COMP_CWORD-1} "
   case $line in
-    " ") words="project advise setup detect register place drift calibration subscribe state command password dds-keys list doctor support backup restore configure events lines bench describe --help --version" ;;
+    " ") words="project advise setup detect register place drift replay calibration subscribe state command password dds-keys list doctor support backup restore configure events lines bench describe --help --version" ;;
     "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
     "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
     "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --page --force --json --help" ;;
@@ -10,6 +10,7 @@ _orbwatch() {
     "register "*) words="--rig --method --detect --refine-outline --json --output --help" ;;
     "place "*) words="--rig --camera --point --view-point --image --tag --tags --focal --ball-centre --sigma-px --sigma-mm --outline-sigma --json --output --view --yaw --pitch --roll --h-fov --v-fov --size --help" ;;
     "drift "*) words="--rig --rate --reference --warning --alarm --json --help" ;;
+    "replay "*) words="--recipe --compare --tolerance --settle --output --help" ;;
     "calibration "*) words="--config --json --help" ;;
     "subscribe "*) words="--topic --domain --prefix --security --save --seconds --count --stats --each --json --help" ;;
     "state "*) words="--json --follow --domain --prefix --security --timeout --help" ;;

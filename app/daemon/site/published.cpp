@@ -2,7 +2,10 @@
 #include "app/daemon/site/published.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
 
 namespace orbwatch::app::daemon {
 namespace {
@@ -33,6 +36,15 @@ PublishedView published_display(const files::Resolved& site, const pipeline::Vie
 
 std::shared_ptr<const optics::ViewProjection> shared(const pipeline::ViewPlan& view) {
   return std::make_shared<const optics::ViewProjection>(view.projection);
+}
+
+/// Path below the configuration's folder, by which its files name each other.
+std::string recorded_name(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto below = file.lexically_normal().lexically_relative(folder.lexically_normal());
+  if (!below.empty() && *below.begin() != "..") return below.string();
+  std::error_code none;  // a file that was read has an absolute path
+  const auto absolute = std::filesystem::absolute(file, none).lexically_normal();
+  return (std::filesystem::path(kRecordedOutside) / absolute.relative_path()).string();
 }
 
 MeasuredRecipe measured(const pipeline::Recipe& stated, const pipeline::RecipePlan& plan) {
@@ -91,12 +103,10 @@ std::vector<std::shared_ptr<const optics::ViewProjection>> camera_balls(
 
 RecordedTexts recorded_texts(const files::Resolved& site, const Program& program) {
   RecordedTexts recorded{{}, program.versions};
-  for (const files::FileTexts* texts : {&site.texts, &site.calibration}) {
-    for (const auto& [path, text] : *texts) {
-      std::string name = path.filename().string();
-      while (recorded.files.contains(name)) name.insert(0, "other-");
-      if (!text.empty()) recorded.files[name] = text;
-    }
+  const std::filesystem::path folder = site.file.parent_path();
+  for (const auto& [path, text] : site.texts) recorded.files[recorded_name(path, folder)] = text;
+  for (const auto& [path, text] : site.calibration) {
+    if (!text.empty()) recorded.files[std::string(kRecordedCalibration)] = text;
   }
   return recorded;
 }

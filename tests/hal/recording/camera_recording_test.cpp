@@ -230,6 +230,58 @@ TEST(CameraRecording, WrongPicturesAreRefusedInASentence) {
             third + "pixel format grey; the camera's first picture has nv12");
 }
 
+/// Writes a recording whose messages of a camera are these bytes.
+void write_bytes(const std::filesystem::path& path, const mcap::Bytes& info,
+                 const mcap::Bytes& picture) {
+  auto writer = tests::required(mcap::Writer::create(path, {.chunk = std::size_t{64} << 10}));
+  const auto add = [&](const std::string& topic, std::string_view type) {
+    const auto schema = tests::required(writer.add_schema({0, std::string(type), "ros2msg", "#"}));
+    return tests::required(writer.add_channel({0, schema, topic, "cdr", {}}));
+  };
+  const auto infos = add("/a/north/camera_info", CameraInfo::kType);
+  const auto images = add("/a/north/image_raw", Image::kType);
+  tests::required(writer.write({infos, 0, kBegin, kBegin}, info));
+  tests::required(writer.write({images, 0, kBegin, kBegin}, picture));
+  tests::required(writer.finish());
+}
+
+TEST(CameraRecording, DamagedMessagesAreReadOrRefusedInASentence) {
+  std::mt19937 random(369);
+  const TemporaryFolder folder;
+  const RandomPicture source(random, PixelFormat::Yuyv, 8, 6, 0);
+  const Header header = header_at(kBegin, "north");
+  mcap::Bytes pixels, info, picture;
+  mcap::encode_cdr(camera_info_of({12, 10, {2, 3, 8, 6}}, header), info);
+  mcap::encode_cdr(image_of(source.picture, header, pixels), picture);
+  std::size_t read = 0, refused = 0;
+  for (int n = 0; n < 1000; ++n) {
+    auto damaged_info = info, damaged_picture = picture;
+    // Behind the pixels there is nothing to damage.
+    auto& damaged = n % 2 == 0 ? damaged_info : damaged_picture;
+    const auto most = static_cast<int>(std::min<std::size_t>(damaged.size(), 68));
+    for (int k = tests::between(random, 1, 2); k > 0; --k) {
+      damaged[static_cast<std::size_t>(tests::between(random, 4, most - 1))] =
+          static_cast<std::byte>(tests::between(random, 0, 255));
+    }
+    if (n % 7 == 0) damaged.resize(static_cast<std::size_t>(tests::between(random, 0, most)));
+    const auto path = folder / (std::to_string(n) + ".mcap");
+    write_bytes(path, damaged_info, damaged_picture);
+    auto recording = CameraRecording::open(path, "north");
+    if (!recording) {
+      EXPECT_EQ(recording.error().message.find('\n'), std::string::npos);
+      ++refused;
+      continue;
+    }
+    const StreamFormat& format = recording->index().format;
+    ++read;
+    if (format.width * format.height > 10'000) continue;  // takes the test's time
+    const RandomPicture whole(random, format.format, format.width, format.height, 0);
+    EXPECT_TRUE(recording->read(0, whole.picture));
+  }
+  EXPECT_GT(read, 50U);
+  EXPECT_GT(refused, 50U);
+}
+
 TEST(CameraRecording, NamesTheCamerasThatItHas) {
   std::mt19937 random(367);
   const TemporaryFolder folder;

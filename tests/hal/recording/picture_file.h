@@ -40,11 +40,18 @@ class PictureFile {
     return required(writer_.add_channel({0, schema, topic, "cdr", metadata}));
   }
 
+  void add(const hal::mcap::Metadata& metadata) { required(writer_.add_metadata(metadata)); }
+
   template <class Message>
   void write(std::uint16_t channel, std::uint64_t log_time, std::uint32_t sequence,
              const Message& message) {
+    write(channel, log_time, sequence, message, log_time);
+  }
+  template <class Message>
+  void write(std::uint16_t channel, std::uint64_t log_time, std::uint32_t sequence,
+             const Message& message, std::uint64_t publish_time) {
     hal::mcap::encode_cdr(message, bytes_);
-    required(writer_.write({channel, sequence, log_time, log_time}, bytes_));
+    required(writer_.write({channel, sequence, log_time, publish_time}, bytes_));
   }
 
   void flush() { required(writer_.flush()); }

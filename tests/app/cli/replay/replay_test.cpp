@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tests/app/cli/command_line.h"
+#include "tests/app/cli/replay/recorded_demo.h"
+
+/// `orbwatch replay` of what the product's own pipeline measured of the demo.
+namespace orbwatch::tests {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::size_t kSets = 60;
+
+class Replay : public CommandLine {
+ protected:
+  static void SetUpTestSuite() { demo_ = new RecordedDemo(kSets); }
+  static void TearDownTestSuite() {
+    delete demo_;
+    demo_ = nullptr;
+  }
+
+  std::string recording() {
+    demo_->write(path("event.mcap"));
+    return path("event.mcap");
+  }
+  /// The demo's recipe with a text replaced.
+  std::string recipe_with(const std::string& before, const std::string& after) {
+    std::string text = demo_->texts().files.at("demo-recipe.toml");
+    const std::size_t at = text.find(before);
+    EXPECT_NE(at, std::string::npos);
+    return write("other.toml", text.replace(at, before.size(), after));
+  }
+
+  static RecordedDemo* demo_;
+};
+RecordedDemo* Replay::demo_ = nullptr;
+
+TEST_F(Replay, MeasuresAsRecorded) {
+  ASSERT_GT(demo_->pictures(), kSets / 2);
+  EXPECT_EQ(run({"replay", recording(), "--compare"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("0 of "));
+  EXPECT_THAT(said,
+              HasSubstr(" values in " + std::to_string(demo_->pictures()) + " frame sets differ"));
+}
+
+TEST_F(Replay, ComparesExactly) {
+  // One count is 0.04 K.
+  demo_->brighten(1);
+  demo_->write(path("brighter.mcap"));
+  demo_->brighten(-1);
+  std::vector<std::string> arguments{"replay", path("brighter.mcap"), "--compare"};
+  EXPECT_EQ(run(arguments), 1);
+  EXPECT_THAT(said, HasSubstr(",hot_spot_peak_temperature,"));
+  arguments.insert(arguments.end(), {"--tolerance", "0.01"});
+  run(arguments);
+  EXPECT_THAT(said, testing::Not(HasSubstr(",hot_spot_peak_temperature,")));
+}
+
+TEST_F(Replay, ListsWhatAnotherLimitChanges) {
+  const std::string other = recipe_with("high_warning = 26", "high_warning = 12");
+  EXPECT_EQ(run({"replay", recording(), "--compare", "--recipe", other}), 1);
+  EXPECT_THAT(said, HasSubstr(",alarm,\"1, pool: hot_spot_width\",state,"));
+  EXPECT_THAT(said, testing::Not(HasSubstr(",region,")));
+}
+
+TEST_F(Replay, ListsWhatAnotherRecipeMeasures) {
+  const std::string other =
+      recipe_with("hot_spot_threshold = 1400        # degC", "hot_spot_threshold = 1500");
+  EXPECT_EQ(run({"replay", recording(), "--compare", "--recipe", "1=" + other}), 1);
+  EXPECT_THAT(said, HasSubstr(",region,pool,hot_spot_width,"));
+}
+
+TEST_F(Replay, PrintsTheMeasurements) {
+  ASSERT_EQ(run({"replay", recording(), "-o", path("measured.csv")}), 0) << said;
+  std::ifstream csv(path("measured.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(csv, line));
+  EXPECT_EQ(line, "utc_ns,frame_set,component,name,figure,value,unit");
+  std::size_t widths = 0;
+  while (std::getline(csv, line)) {
+    widths += line.find(",region,pool,hot_spot_width,") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(widths, demo_->pictures());
+}
+
+TEST_F(Replay, NeedsPicturesAndTheConfigurationInTheFile) {
+  demo_->write(path("log.mcap"), false);
+  expect_refused("replay", {"pictures", {"DIR/log.mcap"}, {"no frame set with pictures"}});
+  auto& files = demo_->texts().files;
+  const auto rig = files.extract("demo-rig.toml");
+  demo_->write(path("rigless.mcap"));
+  expect_refused("replay", {"rig", {"DIR/rigless.mcap"}, {"rigless.mcap/demo-rig.toml"}});
+  files.insert(files.begin(), {rig.key(), rig.mapped()});
+  expect_refused("replay", {"file", {"DIR/missing.mcap"}, {"missing.mcap"}});
+  recording();
+  const std::string second = "2=" + write("second.toml", files.at("demo-recipe.toml"));
+  expect_refused("replay", {"recipe", {"DIR/event.mcap", "--recipe", second}, {"recipe 2"}});
+  expect_refused("replay", {"words", {}, {"name one recording"}});
+  expect_refused("replay", {"share", {"DIR/event.mcap", "--tolerance", "1"}, {"--tolerance"}});
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
