@@ -44,6 +44,7 @@ CliResult<std::string> bench_command(const Arguments& arguments);
 CliResult<std::string> support_command(const Arguments& arguments);
 CliResult<std::string> backup_command(const Arguments& arguments);
 CliResult<std::string> restore_command(const Arguments& arguments);
+CliResult<std::string> reset_command(const Arguments& arguments);
 CliResult<std::string> configure_command(const Arguments& arguments);
 CliResult<std::string> doctor_command(const Arguments& arguments);
 CliResult<std::string> lines_command(const Arguments& arguments);

@@ -40,6 +40,7 @@ constexpr std::array kCommandTable{
     Subcommand{"backup", "write configuration, alignments, users and keys into one file",
                backup_command},
     Subcommand{"restore", "restore a backup, also on another device", restore_command},
+    Subcommand{"reset", "put the delivered configuration back", reset_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
     Subcommand{"events", "list, show, pin and delete recorded events", events_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},

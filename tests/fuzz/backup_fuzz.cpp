@@ -25,7 +25,7 @@ void check(const Result<ReadBackup>& read) {
   const Backup& backup = read->backup;
   require(backup.files.size() == backup.manifest.files.size(), "a file is not in the manifest");
   for (const auto& file : backup.files) {
-    require(check_place(file.name).has_value(), "a file outside of a site");
+    require(check_backed_up(file.name).has_value(), "a file outside of a site");
     require(file.mode <= 07777U, "a mode with a type");
   }
 }

@@ -81,6 +81,7 @@ constexpr std::array kNotRun{
     NotRun{"sudo orbwatch backup -o backup.tar.zst", "root; tests/app/cli/backup_test.cpp"},
     NotRun{"sudo orbwatch restore backup.tar.zst --check", "as the one before"},
     NotRun{"sudo orbwatch restore backup.tar.zst --camera thermal=SN-4711", "as the one before"},
+    NotRun{"sudo orbwatch reset --factory", "as the one before"},
     NotRun{"sudo systemctl stop orbwatch", "the service of this computer"},
     NotRun{"sudo systemctl start orbwatch", "the service of this computer"},
 };

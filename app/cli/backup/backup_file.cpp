@@ -32,7 +32,7 @@ void complete(Manifest& manifest, const Backup& backup, bool is_sealed) {
 /// Error: the file is not the one of the manifest.
 Result<> check_file(const ArchivedFile& file, const ManifestFile& stated) {
   if (file.name != stated.name) return fail("is damaged: " + stated.name + " is missing");
-  if (auto placed = check_place(file.name); !placed) return placed;
+  if (auto placed = check_backed_up(file.name); !placed) return placed;
   if (file.bytes.size() == stated.size && file.mode == stated.mode &&
       sha256(file.bytes) == stated.sha256) {
     return {};
@@ -108,7 +108,7 @@ Result<> open_secrets(ReadBackup& read, std::string_view passphrase) {
   const auto& names = read.backup.manifest.secret_files;
   bool is_right = archive->size() == names.size();
   for (std::size_t i = 0; is_right && i < names.size(); ++i) {
-    is_right = (*archive)[i].name == names[i] && check_place(names[i]).has_value();
+    is_right = (*archive)[i].name == names[i] && check_backed_up(names[i]).has_value();
   }
   if (!is_right) return fail("is damaged: its secrets are not those of the manifest");
   read.backup.secrets = std::move(*archive);

@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostBytes = std::size_t{128} << 20;
 /// Files of a site. The manifest's lists of files and secret files follow from them.
 struct Backup {
   Manifest manifest;
-  Archive files;    ///< names are those of check_place()
+  Archive files;    ///< names are those of check_backed_up()
   Archive secrets;  ///< empty after parse_backup(): see open_secrets()
 };
 

@@ -39,53 +39,39 @@ bool is_open_kind(const fs::path& file) {
   return daemon::is_configuration_name(file) || file.extension() == ".xml";
 }
 
-/// Adds the files of one folder to a backup.
+/// The folder of a second machine, of state or of recordings.
+bool is_foreign(const fs::path& folder, const Site& site) {
+  std::error_code none;
+  const bool is_other_place = folder == site.places.state ||
+                              std::ranges::find(site.recordings, folder) != site.recordings.end();
+  return is_other_place || fs::exists(folder / "site.toml", none);
+}
+
+/// Adds the files of a site to a backup.
 class Collector {
  public:
   Collector(const Site& site, Backup& backup) : site_(site), backup_(backup) {}
 
   Result<> add_configuration() {
-    std::vector<fs::path> files;
-    std::error_code error;
-    const fs::path& folder = site_.places.configuration;
-    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
-         it.increment(error)) {
-      if (!it->is_symlink(error) && it->is_directory(error)) {
-        if (is_foreign(it->path())) it.disable_recursion_pending();
-        continue;
-      }
-      files.push_back(it->path());
-      if (files.size() > kMostFiles) return fail(folder.string() + ": has too many files");
-    }
-    if (error) return fail(folder.string() + ": cannot be read: " + error.message());
-    std::ranges::sort(files);
-    for (const fs::path& file : files) {
-      const std::string name =
-          std::string(kConfiguration) + file.lexically_relative(folder).string();
+    const auto names = configuration_names(site_);
+    if (!names) return tl::unexpected(names.error());
+    for (const std::string& name : *names) {
       const auto is_secret = [&](const ArchivedFile& read) {
-        return (read.mode & 077U) == 0 || !is_open_kind(file) ||
+        return (read.mode & 077U) == 0 || !is_open_kind(name) ||
                read.bytes.find("PRIVATE KEY-----") != std::string::npos;
       };
-      if (auto added = add(file, name, is_secret); !added) return added;
+      if (auto added = add(name, is_secret); !added) return added;
     }
     return {};
   }
 
   Result<> add_state() {
-    std::error_code error;
-    const fs::path& folder = site_.places.state;
-    std::vector<fs::path> files;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-      if (use_of(it->path().filename().string()) != StateUse::None) files.push_back(it->path());
-    }
-    if (error && error != std::errc::no_such_file_or_directory) {
-      return fail(folder.string() + ": cannot be read: " + error.message());
-    }
-    std::ranges::sort(files);
-    for (const fs::path& file : files) {
-      const std::string own = file.filename().string();
-      const bool is_secret = use_of(own) == StateUse::Secret;
-      auto added = add(file, std::string(kState) + own, [&](const auto&) { return is_secret; });
+    const auto names = state_names(site_);
+    if (!names) return tl::unexpected(names.error());
+    for (const std::string& name : *names) {
+      const StateUse use = use_of(name.substr(kState.size()));
+      if (use == StateUse::History) continue;
+      auto added = add(name, [use](const auto&) { return use == StateUse::Secret; });
       if (!added) return added;
     }
     return {};
@@ -99,21 +85,13 @@ class Collector {
   }
 
  private:
-  /// The folder of a second machine, of state or of recordings.
-  bool is_foreign(const fs::path& folder) const {
-    std::error_code none;
-    const bool is_other_place =
-        folder == site_.places.state ||
-        std::ranges::find(site_.recordings, folder) != site_.recordings.end();
-    return is_other_place || fs::exists(folder / "site.toml", none);
-  }
-
   void leave_out(const fs::path& file, const std::string& reason) {
     backup_.manifest.left_out.push_back(plain_text(file.string() + ": " + reason, 4096));
   }
 
   template <class IsSecret>
-  Result<> add(const fs::path& file, const std::string& name, const IsSecret& is_secret) {
+  Result<> add(const std::string& name, const IsSecret& is_secret) {
+    const fs::path file = site_.places.at(name);
     struct stat about {};
     if (::lstat(file.c_str(), &about) != 0) {
       if (errno == ENOENT) return {};  // a temporary file that was renamed meanwhile
@@ -122,7 +100,7 @@ class Collector {
     if (!S_ISREG(about.st_mode)) return left(file, "is a link or not a regular file");
     if (file.extension() == ".part") return left(file, "is being written");
     if (static_cast<std::size_t>(about.st_size) > kLargest) return left(file, "is too large");
-    if (plain_text(name, kLongestName) != name || !check_place(name)) {
+    if (plain_text(name, kLongestName) != name || !check_backed_up(name)) {
       return left(file, "its name is not UTF-8, or is too long");
     }
     const hal::FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
@@ -166,6 +144,39 @@ Site site_of(const fs::path& file, const fs::path& state, const files::Configura
     if (!path.empty()) site.named.push_back(full_path(path));
   }
   return site;
+}
+
+Result<std::vector<std::string>> configuration_names(const Site& site) {
+  std::vector<std::string> names;
+  std::error_code error;
+  const fs::path& folder = site.places.configuration;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (!it->is_symlink(error) && it->is_directory(error)) {
+      if (is_foreign(it->path(), site)) it.disable_recursion_pending();
+      continue;
+    }
+    names.push_back(std::string(kConfiguration) + it->path().lexically_relative(folder).string());
+    if (names.size() > kMostFiles) return fail(folder.string() + ": has too many files");
+  }
+  if (error) return fail(folder.string() + ": cannot be read: " + error.message());
+  std::ranges::sort(names);
+  return names;
+}
+
+Result<std::vector<std::string>> state_names(const Site& site) {
+  std::vector<std::string> names;
+  std::error_code error;
+  const fs::path& folder = site.places.state;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string file = it->path().filename().string();
+    if (use_of(file) != StateUse::None) names.push_back(std::string(kState) + file);
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    return fail(folder.string() + ": cannot be read: " + error.message());
+  }
+  std::ranges::sort(names);
+  return names;
 }
 
 Result<Backup> collect(const Site& site) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/cli/backup/backup_file.h"
@@ -23,6 +24,13 @@ struct Site {
 /// The site of a configuration; `texts` are all that it names.
 Site site_of(const std::filesystem::path& file, const std::filesystem::path& state,
              const files::Configuration& configuration, const files::FileTexts& texts);
+
+/// Names of all files of the configuration's folder, sorted, without those of recordings, of state
+/// and of a second machine. Error: the folder cannot be read, or has too many.
+Result<std::vector<std::string>> configuration_names(const Site& site);
+
+/// Names of the files of the state with a use, sorted. Error: the folder cannot be read.
+Result<std::vector<std::string>> state_names(const Site& site);
 
 /// Reads all files of the configuration's folder and those of the state that have a use. A file is
 /// secret if it is accessible to its owner only, has a private key or is not of a kind that

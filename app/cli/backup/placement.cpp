@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t kPermissions = 07777;
+/// Most bytes of the undo file.
+constexpr std::size_t kMostKept = 2 * kMostBytes;
 /// Entry of the undo file with the names of files that did not exist, each with a line's end.
 constexpr const char* kAbsent = "absent";
 
@@ -64,16 +66,16 @@ Result<std::optional<ArchivedFile>> present(const SitePlaces& places, const std:
   return ArchivedFile{name, std::move(*bytes), about.st_mode & kPermissions};
 }
 
-/// The files that are going to be replaced, and the names of those that do not exist.
-Result<Archive> kept_files(const SitePlaces& places, const Archive& files) {
+/// The files that are going to be replaced or removed, and the names of those that do not exist.
+Result<Archive> kept_files(const SitePlaces& places, const std::vector<std::string>& names) {
   Archive kept{{kAbsent, ""}};
-  for (const ArchivedFile& file : files) {
-    auto old = present(places, file.name);
+  for (const std::string& name : names) {
+    auto old = present(places, name);
     if (!old) return tl::unexpected(old.error());
     if (*old) {
       kept.push_back(std::move(**old));
     } else {
-      kept.front().bytes += file.name + "\n";
+      kept.front().bytes += name + "\n";
     }
   }
   return kept;
@@ -99,8 +101,8 @@ Result<> write_files(const SitePlaces& places, const Archive& files, DiskChanges
   return {};
 }
 
-/// Removes a file that did not exist, and folders that are empty without it.
-Result<> remove_added(const SitePlaces& places, const std::string& name, DiskChanges& disk) {
+/// Removes a file, and folders that are empty without it.
+Result<> remove_file(const SitePlaces& places, const std::string& name, DiskChanges& disk) {
   if (auto right = check_folders(places, name); !right) return right;
   fs::path path = places.at(name);
   if (auto removed = disk.remove(path); !removed) return removed;
@@ -111,6 +113,14 @@ Result<> remove_added(const SitePlaces& places, const std::string& name, DiskCha
     if (absent) continue;
     if (!is_empty) break;
     if (auto removed = disk.remove(path); !removed) return removed;
+  }
+  return {};
+}
+
+Result<> remove_files(const SitePlaces& places, const std::vector<std::string>& names,
+                      DiskChanges& disk) {
+  for (const std::string& name : names) {
+    if (auto removed = remove_file(places, name, disk); !removed) return removed;
   }
   return {};
 }
@@ -126,7 +136,7 @@ Result<> put_back(const SitePlaces& places, Archive kept, DiskChanges& disk) {
   for (std::size_t at = 0; at < absent.size();) {
     const std::size_t end = std::min(absent.find('\n', at), absent.size());
     const std::string name = absent.substr(at, end - at);
-    auto removed = check_place(name).and_then([&] { return remove_added(places, name, disk); });
+    auto removed = check_place(name).and_then([&] { return remove_file(places, name, disk); });
     if (!removed) return removed;
     at = end + 1;
   }
@@ -167,8 +177,11 @@ Result<> DiskChanges::make_folder(const fs::path& folder) {
 
 fs::path undo_file(const SitePlaces& places) { return places.state / "restore-undo.tar"; }
 
-Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk) {
-  const auto kept = kept_files(places, files);
+Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk,
+                       const std::vector<std::string>& removed) {
+  std::vector<std::string> names = removed;
+  for (const ArchivedFile& file : files) names.push_back(file.name);
+  const auto kept = kept_files(places, names);
   if (!kept) return tl::unexpected(kept.error());
   const fs::path undo = undo_file(places);
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -176,10 +189,13 @@ Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChang
   bool is_written = false;
   const auto done =
       tar_of(*kept, now)
-          .and_then([&](const std::string& tar) {
+          .and_then([&](const std::string& tar) -> Result<> {
+            const bool is_readable = tar.size() <= kMostKept && kept->size() <= kMostArchivedFiles;
+            if (!is_readable) return fail("the old files are too many or too large to keep");
             return make_folders(undo, disk).and_then([&] { return disk.write(undo, tar, kOwner); });
           })
           .and_then([&] { return write_files(places, files, disk); })
+          .and_then([&] { return remove_files(places, removed, disk); })
           .and_then([&] {
             is_written = true;
             return disk.remove(undo);
@@ -201,7 +217,6 @@ Result<bool> undo_unfinished(const SitePlaces& places, DiskChanges& disk) {
       ::open(undo.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!opened.is_open() && errno == ENOENT) return false;
   if (!opened.is_open()) return cannot(undo, "read");
-  constexpr std::size_t kMostKept = 2 * kMostBytes;
   auto done = hal::read_regular_file(opened, undo, kMostKept)
                   .and_then([](const std::string& tar) { return parse_tar(tar); })
                   .and_then([&](Archive kept) { return put_back(places, std::move(kept), disk); })

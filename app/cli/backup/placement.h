@@ -4,7 +4,9 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/cli/archive/archive.h"
 #include "app/cli/backup/site_places.h"
@@ -40,10 +42,11 @@ class DiskChanges {
 
 std::filesystem::path undo_file(const SitePlaces& places);
 
-/// Writes the files, whose names are those of check_place(). Errors: a link or a folder is in the
-/// way, and as the disk has them; nothing is changed then, unless the message says that
-/// undo_unfinished() must be repeated.
-Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk);
+/// Writes the files and removes those named `removed`; names are those of check_place(). Errors: a
+/// link or a folder is in the way, and as the disk has them; nothing is changed then, unless the
+/// message says that undo_unfinished() must be repeated.
+Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk,
+                       const std::vector<std::string>& removed = {});
 
 /// Puts the old files back after an interruption of replace_files(). Returns false if there was
 /// none. Errors: as the disk has them; it may be repeated.

@@ -8,11 +8,11 @@
 #include "app/cli/backup/passphrase.h"
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
+#include "app/cli/backup/service_stop.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/files/runtime/site_file.h"
 #include "app/model/plain_text.h"
-#include "app/state/state_folder.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::cli {
@@ -76,41 +76,17 @@ std::string report(const backup::Backup& backup, const backup::Restoration& rest
   return text;
 }
 
-/// Error: orbwatchd runs; the message states what to stop.
-Result<hal::FileDescriptor> exclude_daemon(const backup::SitePlaces& places) {
-  auto reserved = reserve(places.state);
-  if (reserved) return reserved;
-  return fail("orbwatchd runs; stop it first: systemctl stop orbwatch");
-}
-
-Result<bool> undo(const backup::SitePlaces& places) {
-  const auto reserved = exclude_daemon(places);
-  if (!reserved) return tl::unexpected(reserved.error());
-  backup::DiskChanges disk;
-  return backup::undo_unfinished(places, disk);
-}
-
-CliResult<std::string> undo_interrupted(const fs::path& config) {
-  const auto places = backup::present_places(config);
-  if (!places) return tl::unexpected(places.error());
-  std::error_code none;
-  if (!fs::exists(backup::undo_file(*places), none)) return std::string();
-  const auto undone = undo(*places);
-  if (!undone) return tl::unexpected(undone.error());
-  return std::string("an interrupted restore was undone: the old files are back\n");
-}
-
 CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
                                const fs::path& config) {
   const auto backup = read_backup(o, file);
   if (!backup) return tl::unexpected(backup.error());
-  const auto undone = o.check ? CliResult<std::string>("") : undo_interrupted(config);
-  if (!undone) return undone;
+  const auto undone = o.check ? Result<std::string>("") : backup::undo_interrupted(config);
+  if (!undone) return tl::unexpected(undone.error());
   const auto restoration = backup::restoration_of(*backup, config, o.cameras);
   if (!restoration) return fail(file.string() + ": " + shown(restoration.error().message));
   const std::string text = *undone + report(*backup, *restoration);
   if (o.check) return text;
-  const auto reserved = exclude_daemon(restoration->places);
+  const auto reserved = backup::exclude_daemon(restoration->places);
   if (!reserved) return tl::unexpected(reserved.error());
   backup::DiskChanges disk;
   const auto replaced = backup::replace_files(restoration->places, restoration->files, disk);
@@ -121,7 +97,10 @@ CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
 CliResult<std::string> run(const RestoreOptions& o, const std::vector<std::string>& words) {
   if (words.size() + (o.undo ? 1 : 0) != 1) return usage_error("say FILE or --undo");
   const fs::path config = fs::absolute(files::site_file(o.config)).lexically_normal();
-  return o.undo ? undo_interrupted(config) : restore(o, words.front(), config);
+  if (!o.undo) return restore(o, words.front(), config);
+  const auto undone = backup::undo_interrupted(config);
+  if (!undone) return tl::unexpected(undone.error());
+  return *undone;
 }
 
 Result<> add_camera(const std::string& value, std::vector<backup::CameraAddress>& cameras) {

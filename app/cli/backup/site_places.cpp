@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/backup/site_places.h"
 
+#include <algorithm>
+#include <array>
+
 #include "app/cli/archive/archive.h"
 
 namespace orbwatch::app::cli::backup {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kSecret{"users.json", "password-is-set",
+                                                  "certificate.pem"};
+constexpr std::array<std::string_view, 14> kHistory{
+    "logins.json",       "first-code",          "audit.jsonl",
+    "audit.1.jsonl",     "audit-refused.jsonl", "audit-refused.1.jsonl",
+    "last-good.json",    "alarm-history.json",  "last-good-calibration.json",
+    "trial.json",        "trial-running.json",  "trial-confirmed.json",
+    "trial-report.json", "figure-history"};
+
+}  // namespace
 
 StateUse use_of(std::string_view file) {
   const bool is_picture = file.starts_with("clean-") && file.ends_with(".png");
   if (file == "calibration.toml" || file.starts_with("drift-zero-") || is_picture) {
     return StateUse::Plain;
   }
-  const bool is_secret =
-      file == "users.json" || file == "password-is-set" || file == "certificate.pem";
-  return is_secret ? StateUse::Secret : StateUse::None;
+  if (std::ranges::count(kSecret, file) > 0) return StateUse::Secret;
+  return std::ranges::count(kHistory, file) > 0 ? StateUse::History : StateUse::None;
 }
 
 const std::filesystem::path& SitePlaces::folder_of(const std::string& name) const {
@@ -33,7 +48,15 @@ Result<> check_place(const std::string& name) {
   if (name.starts_with(kConfiguration)) return {};
   const bool is_plain_name = file.find('/') == file.npos;
   if (name.starts_with(kState) && is_plain_name && use_of(file) != StateUse::None) return {};
-  return fail(name + ": is not a file of a backup");
+  return fail(name + ": is not a file of a site");
+}
+
+Result<> check_backed_up(const std::string& name) {
+  if (auto placed = check_place(name); !placed) return placed;
+  const bool is_history =
+      name.starts_with(kState) && use_of(name.substr(kState.size())) == StateUse::History;
+  if (is_history) return fail(name + ": is not a file of a backup");
+  return {};
 }
 
 }  // namespace orbwatch::app::cli::backup

@@ -12,17 +12,18 @@ namespace orbwatch::app::cli::backup {
 inline constexpr std::string_view kConfiguration = "configuration/";
 inline constexpr std::string_view kState = "state/";
 
-/// Use of a file of the state folder in a backup.
+/// Use of a file of the state folder.
 enum class StateUse {
-  None,   ///< belongs to the device or the moment
-  Plain,  ///< alignments, and what they are compared with
-  Secret  ///< users, and the key of the page's certificate
+  None,     ///< belongs to the device, such as the record of commands
+  History,  ///< sessions, events, kept configurations: removed by a reset, not backed up
+  Plain,    ///< alignments, and what they are compared with
+  Secret    ///< users, and the key of the page's certificate
 };
 
 /// `file` is the name in the state folder.
 StateUse use_of(std::string_view file);
 
-/// Folders of a site, and the names of their files in a backup.
+/// Folders of a site, and the names of their files here and in a backup.
 struct SitePlaces {
   std::filesystem::path configuration;
   std::filesystem::path state;
@@ -38,5 +39,8 @@ std::filesystem::path full_path(const std::filesystem::path& path);
 
 /// Error: not configuration/FILE or state/FILE, FILE with a use. Reentrant.
 Result<> check_place(const std::string& name);
+
+/// Error: also a file that is not backed up.
+Result<> check_backed_up(const std::string& name);
 
 }  // namespace orbwatch::app::cli::backup

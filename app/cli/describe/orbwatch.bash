@@ -2,7 +2,7 @@
 _orbwatch() {
   local words="" line="${COMP_WORDS[*]:1:COMP_CWORD-1} "
   case $line in
-    " ") words="project advise setup detect register place drift replay calibration subscribe state command password dds-keys list doctor support backup restore configure events lines bench describe --help --version" ;;
+    " ") words="project advise setup detect register place drift replay calibration subscribe state command password dds-keys list doctor support backup restore reset configure events lines bench describe --help --version" ;;
     "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
     "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
     "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --page --force --json --help" ;;
@@ -22,6 +22,7 @@ _orbwatch() {
     "support "*) words="--output --config --pictures --help" ;;
     "backup "*) words="--output --config --passphrase-file --without-secrets --help" ;;
     "restore "*) words="--config --camera --passphrase-file --without-secrets --check --undo --help" ;;
+    "reset "*) words="--factory --config --from --check --help" ;;
     "configure "*) words="--config --seconds --dry-run --confirm --cancel --help" ;;
     "events "*) words="--config --folder --json --help" ;;
     "lines "*) words="--safe --config --help" ;;

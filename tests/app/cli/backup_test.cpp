@@ -130,6 +130,45 @@ TEST_F(BackupProgram, WhatCannotBeRestoredChangesNothing) {
   EXPECT_TRUE(states_below(path("new")).empty());
 }
 
+TEST_F(BackupProgram, AResetPutsTheDeliveredConfigurationBackAndKeepsRecordings) {
+  write_file(path("delivered/site.toml"), app::files::kValid, 0644);
+  write_file(path("delivered/rig.toml"), app::files::kRig, 0644);
+  write_file(path("old/recordings/1.mcap"), "recording");
+  write_file(path("old-state/certificate.pem"), "key", 0600);
+  write_file(path("old-state/calibration.toml"), "damaged", 0600);
+  write_file(path("old-state/audit.jsonl"), "of kim", 0600);
+  const auto before = states_below(folder.path());
+  const std::vector<std::string> command{"reset", "--factory", "--from", path("delivered")};
+  EXPECT_EQ(run_on("old", {"reset", "--from", path("delivered")}), 2) << "without --factory";
+  auto checked = command;
+  checked.emplace_back("--check");
+  ASSERT_EQ(run_on("old", checked), 0) << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("changed  " + full("old/site.toml")),
+                          HasSubstr("removed  " + full("old/keys/key.pem"))));
+  EXPECT_EQ(states_below(folder.path()), before);
+  ASSERT_EQ(run_on("old", command), 0) << said;
+  auto after = states_below(path("old"));
+  EXPECT_EQ(after["recordings/1.mcap"].first, "recording");
+  after.erase("recordings/1.mcap");
+  EXPECT_EQ(after, states_below(path("delivered")));
+  auto state = states_below(path("old-state"));
+  EXPECT_EQ(state["commands"].first, "of the old device");
+  for (const char* kept : {"commands", "reserved", "calibration.toml"})
+    EXPECT_EQ(state.erase(kept), 1U);
+  EXPECT_TRUE(state.empty()) << state.begin()->first;
+}
+
+TEST_F(BackupProgram, AResetRepairsAConfigurationThatIsWrong) {
+  write_file(path("delivered/site.toml"), app::files::kValid, 0644);
+  write_file(path("delivered/rig.toml"), app::files::kRig, 0644);
+  write_file(path("old/site.toml"), "wrong");
+  ASSERT_EQ(run_on("old", {"reset", "--factory", "--from", path("delivered")}), 0) << said;
+  EXPECT_EQ(states_below(path("old")), states_below(path("delivered")));
+  EXPECT_EQ(run_on("old", {"reset", "--factory", "--from", path("none")}), 1);
+  EXPECT_THAT(said, HasSubstr("none"));
+  EXPECT_EQ(states_below(path("old")), states_below(path("delivered")));
+}
+
 TEST_F(BackupProgram, AnInterruptedRestoreIsUndone) {
   class Interrupted : public app::cli::backup::DiskChanges {
    public:

@@ -154,7 +154,7 @@ TEST(BackupFile, FilesOutsideOfTheirPlacesAreRefused) {
                            "elsewhere/site.toml", "configuration", "absent"}) {
     Backup backup = example();
     backup.files = {{name, "x", 0644}};
-    EXPECT_THAT(refusal_of(parse_backup(bytes_of(backup, ""))), HasSubstr("is not a file of"))
+    EXPECT_THAT(refusal_of(parse_backup(bytes_of(backup, ""))), HasSubstr("is not a file of a "))
         << name;
     backup = example();
     backup.secrets = {{name, "x", 0644}};

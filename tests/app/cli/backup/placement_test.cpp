@@ -59,6 +59,8 @@ class Placement : public testing::Test {
     write_file(old.places.configuration / "recipes/kept.toml", "not in the backup");
     write_file(old.places.state / "users.json", "old users", 0600);
     write_file(old.places.state / "commands", "of the device");
+    write_file(old.places.state / "logins.json", "of a user", 0600);
+    write_file(old.places.configuration / "gone/old.toml", "not needed any more");
     before = old.states();
   }
 
@@ -68,6 +70,8 @@ class Placement : public testing::Test {
       const auto path = old.places.at(file.name).lexically_relative(old.folder.path());
       states[path.string()] = {file.bytes, file.mode};
     }
+    states.erase("lib/logins.json");
+    states.erase("etc/gone/old.toml");
     return states;
   }
 
@@ -79,19 +83,22 @@ class Placement : public testing::Test {
                       {"configuration/keys/key.pem", "new key", 0600},
                       {"state/users.json", "new users", 0600},
                       {"state/calibration.toml", "new alignment", 0600}};
+  const std::vector<std::string> removed{"state/logins.json", "configuration/gone/old.toml",
+                                         "configuration/none.toml"};
 };
 
 TEST_F(Placement, AllFilesAreReplacedAndOthersStay) {
   DiskChanges disk;
-  const auto replaced = replace_files(old.places, files, disk);
+  const auto replaced = replace_files(old.places, files, disk, removed);
   ASSERT_TRUE(replaced) << replaced.error().message;
   EXPECT_EQ(old.states(), expected());
+  EXPECT_FALSE(std::filesystem::exists(old.places.configuration / "gone"));
 }
 
 TEST_F(Placement, AnErrorAtAnyChangeLeavesTheOldFiles) {
   for (int at = 0;; ++at) {
     FailingDisk disk(at, FailingDisk::Way::Error);
-    const auto replaced = replace_files(old.places, files, disk);
+    const auto replaced = replace_files(old.places, files, disk, removed);
     if (!disk.has_failed()) {
       EXPECT_GE(at, 9) << "the undo file, folders, files";
       EXPECT_TRUE(replaced);
@@ -113,7 +120,7 @@ TEST_F(Placement, APowerCutAtAnyChangeLeavesTheOldOrTheNewFiles) {
       }
       FailingDisk disk(at, way);
       try {
-        EXPECT_TRUE(replace_files(device.places, files, disk));
+        EXPECT_TRUE(replace_files(device.places, files, disk, removed));
         EXPECT_EQ(device.states(), expected());
         break;
       } catch (const PowerCut&) {  // the next start puts it right, unless it is interrupted again
@@ -147,7 +154,7 @@ TEST_F(Placement, WhenThePuttingBackFailsItIsSaidAndMayBeRepeated) {
     }
     int writes = 0;
   } disk;
-  const auto replaced = replace_files(old.places, files, disk);
+  const auto replaced = replace_files(old.places, files, disk, removed);
   ASSERT_FALSE(replaced);
   EXPECT_THAT(replaced.error().message, HasSubstr("orbwatch restore --undo"));
   DiskChanges mended;
@@ -161,12 +168,12 @@ TEST_F(Placement, LinksAreNotFollowed) {
   std::filesystem::remove(old.places.state / "users.json");
   std::filesystem::create_symlink(elsewhere / "users.json", old.places.state / "users.json");
   DiskChanges disk;
-  auto replaced = replace_files(old.places, files, disk);
+  auto replaced = replace_files(old.places, files, disk, removed);
   ASSERT_FALSE(replaced);
   EXPECT_THAT(replaced.error().message, HasSubstr("users.json: is a link"));
   std::filesystem::remove(old.places.state / "users.json");
   std::filesystem::create_directory_symlink(elsewhere.path(), old.places.configuration / "keys");
-  replaced = replace_files(old.places, files, disk);
+  replaced = replace_files(old.places, files, disk, removed);
   ASSERT_FALSE(replaced);
   EXPECT_THAT(replaced.error().message, HasSubstr("keys: is not a folder"));
   EXPECT_EQ(elsewhere.files(), 1);
@@ -179,7 +186,7 @@ TEST_F(Placement, AForgedUndoFileReachesNoOtherFile) {
   DiskChanges disk;
   const auto undone = undo_unfinished(old.places, disk);
   ASSERT_FALSE(undone);
-  EXPECT_THAT(undone.error().message, HasSubstr("state/commands: is not a file of a backup"));
+  EXPECT_THAT(undone.error().message, HasSubstr("state/commands: is not a file of a site"));
   EXPECT_TRUE(std::filesystem::exists(old.places.state / "commands"));
 }
 
