@@ -19,18 +19,16 @@ constexpr const char* kReplayUsage =
 
 constexpr const char* kReplayNotes =
     "\n"
-    "FILE is an MCAP recording with pictures and states of the process. With --recipe a limit or "
-    "a\n"
-    "recipe is tried on what happened: everything else remains as recorded. No file of this\n"
-    "computer takes the place of a recorded one.\n"
+    "FILE is an MCAP recording with pictures and states of the process. With --recipe a limit\n"
+    "or a recipe is tried on what happened: everything else remains as recorded. No file of\n"
+    "this computer takes the place of a recorded one.\n"
     "\n"
-    "Lossless pictures give the same measurements bit by bit on the same kernel; for JPEG, and "
-    "for\n"
-    "other processors, set --tolerance. The first seconds after the start of an event are not\n"
-    "compared, because rates and delays of alarms need what was before; see --settle. Regions "
-    "that\n"
-    "were not measured when they were recorded are not compared; an alarm may change a frame set\n"
-    "earlier or later. Acknowledgements are not repeated.\n";
+    "Lossless pictures give the same measurements bit by bit on the same kernel; for JPEG, and\n"
+    "for other processors, set --tolerance. The first seconds after the start of an event are\n"
+    "not compared, because rates and delays of alarms need what was before; see --settle.\n"
+    "hot_spot_confidence needs longer: the usual size of the hot spot before the event is not\n"
+    "known. Regions that were not measured when they were recorded are not compared; an alarm\n"
+    "may change a frame set earlier or later. Acknowledgements are not repeated.\n";
 
 struct ReplayOptions {
   ReplaySettings run;

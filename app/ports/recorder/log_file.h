@@ -47,6 +47,10 @@ class LogFile {
   hal::mcap::FileResult<std::uint16_t> add_topic(std::string topic, std::string_view type,
                                                  hal::mcap::StringMap metadata = {});
 
+  hal::mcap::FileResult<> add_metadata(const hal::mcap::Metadata& metadata) {
+    return writer_.add_metadata(metadata);
+  }
+
   hal::mcap::FileResult<> write(const LogMessage& message);
   /// Writes any message; one that the chunk has no room for begins another.
   hal::mcap::FileResult<> write(const hal::mcap::MessageHead& head,

@@ -50,7 +50,12 @@ FileResult<EventFile> EventFile::create(const std::filesystem::path& path,
                                         hal::TimePoint moment, Utc utc) {
   auto log = LogFile::create(path, texts, utc, kPictureLevel);
   if (!log) return hal::mcap::error_of(log);
-  return EventFile(std::move(*log), settings, cameras, moment, utc);
+  const auto since_zero = std::chrono::nanoseconds(moment.time_since_epoch()).count();
+  const recording::RecordedClock clock(static_cast<std::int64_t>(nanoseconds(utc)) - since_zero);
+  if (auto added = log->add_metadata(clock.metadata()); !added) {
+    return tl::unexpected(added.error());
+  }
+  return EventFile(std::move(*log), settings, cameras, clock);
 }
 
 FileResult<> EventFile::write(const LogMessage& message) {

@@ -13,6 +13,7 @@
 #include "app/ports/recorder/events/frame_ring.h"
 #include "app/ports/recorder/log_file.h"
 #include "hal/mcap/fields.h"
+#include "hal/recording/recorded_clock.h"
 
 namespace orbwatch::app::recorder {
 
@@ -37,7 +38,10 @@ class EventFile {
   hal::mcap::FileResult<> flush() { return log_.flush(); }
   hal::mcap::FileResult<> finish();
 
-  Utc utc(hal::TimePoint moment) const { return utc_ + (moment - moment_); }
+  Utc utc(hal::TimePoint moment) const {
+    return Utc(std::chrono::duration_cast<Utc::duration>(
+        std::chrono::nanoseconds(clock_.to_utc(moment))));
+  }
   /// Pictures by camera.
   const std::vector<std::uint64_t>& pictures() const { return pictures_; }
   std::uint64_t size() const { return log_.size(); }
@@ -49,12 +53,11 @@ class EventFile {
   };
 
   EventFile(LogFile log, const EventSettings& settings, const std::vector<RecordedCamera>& cameras,
-            hal::TimePoint moment, Utc utc)
+            hal::recording::RecordedClock clock)
       : log_(std::move(log)),
         settings_(&settings),
         cameras_(&cameras),
-        moment_(moment),
-        utc_(utc),
+        clock_(clock),
         channels_(cameras.size()),
         pictures_(cameras.size()) {}
 
@@ -65,8 +68,7 @@ class EventFile {
   LogFile log_;
   const EventSettings* settings_;
   const std::vector<RecordedCamera>* cameras_;
-  hal::TimePoint moment_;
-  Utc utc_{};
+  hal::recording::RecordedClock clock_;
   std::vector<std::optional<Channels>> channels_;
   std::vector<std::uint64_t> pictures_;
   JpegEncoder jpeg_;
