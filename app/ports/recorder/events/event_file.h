@@ -39,8 +39,8 @@ class EventFile {
   hal::mcap::FileResult<> finish();
 
   Utc utc(hal::TimePoint moment) const {
-    return Utc(std::chrono::duration_cast<Utc::duration>(
-        std::chrono::nanoseconds(clock_.to_utc(moment))));
+    return Utc(
+        std::chrono::duration_cast<Utc::duration>(std::chrono::nanoseconds(clock_.to_utc(moment))));
   }
   /// Pictures by camera.
   const std::vector<std::uint64_t>& pictures() const { return pictures_; }
