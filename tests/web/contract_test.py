@@ -34,6 +34,15 @@ camera = "colour"
 [modbus]
 address = "127.0.0.1"
 port = {modbus_port}
+[recorder]
+folder = "recordings"
+reserve_mib = 16
+[recorder.events]
+ring_mib = 64
+before_s = 0.2
+after_s = 0.2
+longest_s = 1
+on_alarm = false
 """
 
 FORMATS = jsonschema.FormatChecker(formats=())
@@ -86,6 +95,10 @@ class WholeAppliance(Appliance):
             raise OSError(f"{name}: {status} {content[:200]}")
         return json.loads(content)
 
+    def event(self):
+        """Name of the oldest event whose recording has ended."""
+        return next((one["name"] for one in reversed(self.get("recordings")["events"]) if one["is_finished"]), None)
+
     def first_code(self):
         return (self.folder / "state/first-code").read_text(encoding="utf-8").strip()
 
@@ -130,6 +143,8 @@ class Contract(unittest.TestCase):
         cls.addClassCleanup(cls.appliance.close)
         cls.appliance.start()
         cls.description = cls.appliance.get("openapi.json")
+        cls.appliance.ask("POST", COMMAND + "record_event", body={})
+        eventually("an event", cls.appliance.event)
         cls.operations = {(method.upper(), path): operation
                           for path, methods in cls.description["paths"].items()
                           for method, operation in methods.items()}
@@ -163,6 +178,8 @@ class Contract(unittest.TestCase):
         polygon = {"view": recipe["views"][0]["name"], "pixels": "200,150,400,150,300,300"}
         pixel = {"view": views[0], "u": 40, "v": 30}
         number = get("live/pixel", **pixel)["number"]
+        event = {"event": self.appliance.event()}
+        frame = {**event, "camera": name, "frame": 1}
         own = next(one for one in get("appliances")["appliances"] if one["is_self"])
         return {
             "/api/v1/history": [
@@ -182,6 +199,10 @@ class Contract(unittest.TestCase):
             "/api/v1/recipe": [{}, {"number": recipe["number"]}],
             "/api/v1/recipe/polygon": [polygon, {**polygon, "number": recipe["number"]}],
             "/api/v1/appliances/picture.jpg": [{"appliance": own["id"]}],
+            "/api/v1/recordings/trigger.jpg": [event],
+            "/api/v1/recordings/event.mcap": [event],
+            "/api/v1/recordings/frames": [event],
+            "/api/v1/recordings/frame.jpg": [frame],
         }
 
     def expect_answers(self):
@@ -233,6 +254,8 @@ class Contract(unittest.TestCase):
                 ("confirm_configuration", dict), ("check_recipe", limit), ("try_recipe", limit),
                 ("revert_configuration", dict), ("forget_appliances", dict),
                 ("machine_state", lambda: {"layer": 1}),
+                ("pin_recording", lambda: {"event": self.appliance.event(), "is_pinned": True}),
+                ("remove_recording", lambda: {"event": self.appliance.event()}),
                 ("set_first_password", lambda: {"code": self.appliance.first_code(),
                                                 "password": PASSWORD}),
                 ("logout", dict), ("login", lambda: {"user": "admin", "password": PASSWORD}),
@@ -302,6 +325,8 @@ class Contract(unittest.TestCase):
                   "/api/v1/remove_user": {"user": "kim"},
                   "/api/v1/create_token": {"name": "recorder", "role": "viewer"},
                   "/api/v1/revoke_token": {"name": "recorder"},
+                  "/api/v1/pin_recording": {"event": self.appliance.event(), "is_pinned": True},
+                  "/api/v1/remove_recording": {"event": self.appliance.event()},
                   "/api/v1/check_configuration": {"files": {}},
                   "/api/v1/try_configuration": {"files": {}},
                   "/api/v1/check_recipe": {"recipe": 1},

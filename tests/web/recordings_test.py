@@ -43,8 +43,10 @@ class Recordings(PageCase):
         with urllib.request.urlopen(f"{self.appliance.address}api/v1/recordings", timeout=PATIENCE_S) as answer:
             return json.load(answer)["events"]
 
-    def shown(self, selector="#events h3"):
-        return [one.text for one in self.browser.find_elements(By.CSS_SELECTOR, selector)]
+    def shown(self):
+        """Causes of the events that are listed."""
+        return self.browser.execute_script(
+            "return [...document.querySelectorAll('#events h3')].map(({ textContent }) => textContent)")
 
     def press(self, label):
         self.browser.find_element(By.XPATH, f"//*[@id='recordings']//button[text()='{label}']").click()
