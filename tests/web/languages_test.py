@@ -17,7 +17,7 @@ from page_case import PageCase
 
 # Pages with an element that each has once it is complete.
 PAGES = {"live": "canvas[data-number]", "look": "canvas", "align": "button", "process": ".key",
-         "system": ".card", "fleet": ".appliance"}
+         "recordings": "[role=status]:not(:empty)", "system": ".card", "fleet": ".appliance"}
 LONG = 12  # characters of a text that is recognised within another
 OTHERS = ("de", "ja")
 

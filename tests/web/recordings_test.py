@@ -49,7 +49,9 @@ class Recordings(PageCase):
             "return [...document.querySelectorAll('#events h3')].map(({ textContent }) => textContent)")
 
     def press(self, label):
-        self.browser.find_element(By.XPATH, f"//*[@id='recordings']//button[text()='{label}']").click()
+        """Presses a button once the page enables it."""
+        path = f"//*[@id='recordings']//button[text()='{label}' and not(@disabled)]"
+        eventually(f"{label} can be pressed", lambda: self.browser.find_elements(By.XPATH, path))[0].click()
 
     def record(self):
         before = len(self.events())
@@ -90,6 +92,23 @@ class Recordings(PageCase):
         self.assertNotEqual(self.viewed()[2], colour, "another camera has another size")
         self.press("Close")
         self.assertFalse(self.browser.find_element(By.ID, "viewer").is_displayed())
+
+    def test_nothing_bars_people_from_events_and_their_pictures(self):
+        def show():
+            self.browser.get(f"{self.appliance.address}#/recordings")
+            if not self.events():
+                self.record()
+            eventually("an event", self.shown)
+            self.press("Look at it")
+            eventually("a picture", lambda: self.viewed()[2] > 100)
+        for width in (1440, 390):
+            with self.subTest(width=width):
+                self.browser.set_window_size(width, 850)
+                self.expect_no_barriers(show)
+                self.expect_fits_its_width()
+        self.press("Remove")
+        self.browser.switch_to.alert.accept()
+        eventually("it is deleted", lambda: self.events() == [])
 
     def test_an_event_is_recorded_shown_saved_pinned_and_deleted(self):
         self.browser.get(f"{self.appliance.address}#/recordings")
