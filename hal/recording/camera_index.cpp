@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 #include <set>
 #include <string>
 #include <utility>
@@ -51,8 +50,9 @@ class Indexer {
       index_.time.period = std::chrono::nanoseconds(time.end - time.begin) / (sets_ - 1);
     }
     if (!triggers_.empty()) {
-      const auto [first, last] = std::ranges::minmax(std::views::values(triggers_));
-      index_.triggers = last - first + 1;
+      const auto number = [](const auto& entry) { return entry.second; };
+      const auto [first, last] = std::ranges::minmax_element(triggers_, {}, number);
+      index_.triggers = last->second - first->second + 1;
     }
     return std::move(index_);
   }

@@ -44,7 +44,7 @@ Result<std::unique_ptr<Recording>> open_recording(const ReplaySettings& settings
   if (recording::has_recording_name(source)) return RecordedPictures::open(source, name, loop);
   if (std::filesystem::is_regular_file(status)) {
     return module_of(kVideoModule).and_then([&](const CameraModule* module) {
-      return module->open_recording(source, loop);
+      return module->open_recording(settings.source, settings.loop);
     });
   }
   return fail(source.string() +

@@ -145,7 +145,7 @@ Redaction::Redaction(std::vector<std::string> secrets) : secrets_(std::move(secr
   std::ranges::sort(secrets_, [](const std::string& a, const std::string& b) {
     return a.size() != b.size() ? a.size() > b.size() : a < b;
   });
-  secrets_.erase(std::ranges::unique(secrets_).begin(), secrets_.end());
+  secrets_.erase(std::unique(secrets_.begin(), secrets_.end()), secrets_.end());
 }
 
 std::string Redaction::operator()(std::string_view text) const {
