@@ -44,7 +44,8 @@ CliResult<std::string> write_support_file(const SupportOptions& o) {
   if (!written) return tl::unexpected(written.error());
   std::string text =
       o.output.string() + ": " + std::to_string(file.files.size()) + " files; left out:\n";
-  for (const auto& [name, reason] : file.left_out) text += "  " + name + ": " + reason + "\n";
+  for (const auto& [name, reason] : file.left_out)
+    text.append("  ").append(name).append(": ").append(reason).append("\n");
   return text;
 }
 

@@ -51,8 +51,8 @@ ProcessState process_state_of(const StatusReport& report) {
   return state;
 }
 
-Event event_of(const AlarmNotice& notice, const StatusNames& names, Utc stamp) {
-  Event event;
+EventMessage event_of(const AlarmNotice& notice, const StatusNames& names, Utc stamp) {
+  EventMessage event;
   event.header = header_of(stamp);
   event.number = notice.number;
   event.source = alarm_name(notice, names);

@@ -67,7 +67,7 @@ struct ProcessState {
 };
 
 /// orbwatch_msgs/msg/Event.
-struct Event {
+struct EventMessage {
   Header header;
   std::uint64_t number = 0;
   std::string kind = "alarm", source;
@@ -86,6 +86,6 @@ struct Event {
 ProcessState process_state_of(const StatusReport& report);
 
 /// Reentrant.
-Event event_of(const AlarmNotice& notice, const StatusNames& names, Utc stamp);
+EventMessage event_of(const AlarmNotice& notice, const StatusNames& names, Utc stamp);
 
 }  // namespace orbwatch::app::recorder
