@@ -37,14 +37,14 @@ find_all() {
   done
 }
 
-# find_named NAME...: sets chosen to the named ones.
+# find_named NAME...: adds the named ones to chosen, each once.
 find_named() {
   local name run found
   for name in "$@"; do
     found=0
     for run in "${all[@]}"; do
       if [[ $run == "$name" || ${run%@*} == "$name" ]]; then
-        chosen+=("$run")
+        [[ " ${chosen[*]} " == *" $run "* ]] || chosen+=("$run")
         found=1
       fi
     done
