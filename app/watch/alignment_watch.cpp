@@ -71,7 +71,7 @@ void AlignmentWatch::begin(const Picture& picture) {
     return monitor_.refer_to(luminance_picture(zero->luminance, subject_.format), zero->zero);
   });
   knows_zero_ = referred.has_value();
-  if (referred) return check(**kept);
+  if (referred) return offer(**kept);
   log_camera(LogLevel::Warning, name_,
              "learns the zero of its drift anew, and a motion before this start is not noticed: " +
                  referred.error().message);
@@ -91,9 +91,6 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
       is_measured ? kPercentOfRadius * std::hypot(drift_.motion.u, drift_.motion.v) / radius
                   : signals::kNotValid;
   if (!knows_zero_) learn(picture);
-  figures.outline_check = checked_.state;
-  figures.outline_offset = checked_.offset_percent;
-  figures.outline_offset_px = checked_.offset_px;
   log_level(is_measured ? level_of(drift_.level) : WatchLevel::NotMeasured);
 }
 
@@ -108,7 +105,7 @@ void AlignmentWatch::learn(const Picture& picture) {
   first_.reset();
   knows_zero_ = true;
   keep(learnt);
-  check(learnt);
+  offer(learnt);
 }
 
 void AlignmentWatch::keep(const KeptZero& zero) {
@@ -120,19 +117,9 @@ void AlignmentWatch::keep(const KeptZero& zero) {
 }
 
 /// The ball is a little beside its zero in the picture that is kept.
-void AlignmentWatch::check(const KeptZero& zero) {
-  const optics::Outline there = align::moved(stated_, align::PictureMotion{} - zero.zero.place);
-  checked_ = check_outline(luminance_picture(zero.luminance, subject_.format), there);
-  if (checked_.state == OutlineState::Unknown) {
-    log_camera(LogLevel::Info, name_, "its stated outline is not checked: " + checked_.doubt);
-  }
-  if (checked_.state != OutlineState::NotAligned) return;
-  char offset[64];
-  std::snprintf(offset, sizeof offset, "%.1f px, %.1f %% of the radius", checked_.offset_px,
-                checked_.offset_percent);
-  log_camera(LogLevel::Warning, name_,
-             "its stated outline is " + std::string(operator_text(checked_.state)) + ": off by " +
-                 offset + "; align it (`orbwatch detect`, or the command detect_ball)");
+void AlignmentWatch::offer(const KeptZero& zero) {
+  zero_picture_ = {zero.luminance, subject_.format,
+                   align::moved(stated_, align::PictureMotion{} - zero.zero.place)};
 }
 
 void AlignmentWatch::log_level(WatchLevel level) {

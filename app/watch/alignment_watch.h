@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/model/alignment/watch_settings.h"
 #include "app/model/status/status.h"
@@ -19,7 +20,7 @@ namespace orbwatch::app {
 
 /// Watches whether one camera still sees the ball where it was aligned. The zero, learnt after an
 /// alignment, is kept as a file: a motion while the appliance is off is detected, too. In the
-/// picture of the zero the ball is looked for, once: an alignment that was wrong does not move.
+/// picture of the zero the ball is to be looked for: an alignment that was wrong does not move.
 /// Thread-bound.
 class AlignmentWatch {
  public:
@@ -32,6 +33,12 @@ class AlignmentWatch {
   /// Sets the figures of the alignment. Logs when the level changes.
   void observe(const Picture& picture, hal::TimePoint stamp, CameraWatchStatus& figures);
 
+  /// The picture of a zero that observe() learnt or read, once: there the stated outline is to be
+  /// checked.
+  std::optional<OutlineSubject> take_zero_picture() {
+    return std::exchange(zero_picture_, std::nullopt);
+  }
+
   /// The drift by the newest picture.
   const align::DriftState& drift() const { return drift_; }
 
@@ -42,7 +49,7 @@ class AlignmentWatch {
   void begin(const Picture& picture);
   void learn(const Picture& picture);
   void keep(const KeptZero& zero);
-  void check(const KeptZero& zero);
+  void offer(const KeptZero& zero);
   void log_level(WatchLevel level);
 
   std::string name_;
@@ -50,8 +57,8 @@ class AlignmentWatch {
   std::filesystem::path file_;  ///< of the zero
   ZeroSubject subject_;
   optics::Outline stated_;
-  OutlineCheck checked_;    ///< in the picture of the zero
-  bool has_begun_ = false;  ///< the first picture was there
+  std::optional<OutlineSubject> zero_picture_;  ///< until it is taken
+  bool has_begun_ = false;                      ///< the first picture was there
   bool knows_zero_ = false;
   std::optional<KeptZero> first_;  ///< the first picture measured, while the zero is learnt
   align::DriftState drift_;

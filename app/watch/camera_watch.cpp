@@ -9,9 +9,12 @@
 
 namespace orbwatch::app {
 
-CameraWatch::Watched::Watched(AlignmentWatch alignment_watch, BallWatch ball_watch,
-                              Records& all_records, std::shared_ptr<hal::SharedThreads> threads)
+CameraWatch::Watched::Watched(const std::string& name, AlignmentWatch alignment_watch,
+                              BallWatch ball_watch, Records& all_records,
+                              std::shared_ptr<hal::SharedThreads> threads,
+                              std::shared_ptr<hal::SharedThreads> outline_threads)
     : alignment(std::move(alignment_watch)),
+      outline(name, std::move(outline_threads)),
       ball(std::move(ball_watch)),
       records(all_records),
       work(std::move(threads), [this] { look(); }) {}
@@ -20,6 +23,8 @@ void CameraWatch::Watched::look() {
   CameraWatchStatus seen;
   const hal::TimePoint taken = frame->metadata.exposure_start;
   alignment.observe(frame->picture, taken, seen);
+  if (auto zero = alignment.take_zero_picture()) outline.check(std::move(*zero));
+  outline.report(seen);
   if (cleaned.exchange(false)) ball.learn_anew();
   ball.observe(frame->picture, taken, seen);
   {
@@ -54,8 +59,9 @@ void CameraWatch::Watched::serve_readers() {
 }
 
 CameraWatch::CameraWatch(const AlignedSite& site, const std::filesystem::path& folder,
-                         const std::shared_ptr<hal::SharedThreads>& threads)
-    : threads_(threads), copies_(threads) {
+                         const std::shared_ptr<hal::SharedThreads>& threads,
+                         std::shared_ptr<hal::SharedThreads> outline_threads)
+    : threads_(threads), outline_threads_(std::move(outline_threads)), copies_(threads) {
   for (std::size_t i = 0; i < site.cameras.size(); ++i) {
     cameras_.emplace_back();
     is_registered_.push_back(site.rig_camera(i).is_registered);
@@ -81,7 +87,8 @@ Result<std::unique_ptr<CameraWatch::Watched>> CameraWatch::make(
   auto ball =
       BallWatch::make(name, subject->width, subject->height, subject->outline, settings, folder);
   if (!ball) return tl::unexpected(ball.error());
-  return std::make_unique<Watched>(std::move(*alignment), std::move(*ball), records_, threads_);
+  return std::make_unique<Watched>(name, std::move(*alignment), std::move(*ball), records_,
+                                   threads_, outline_threads_);
 }
 
 CameraWatch::~CameraWatch() { stop(); }
@@ -89,14 +96,16 @@ CameraWatch::~CameraWatch() { stop(); }
 void CameraWatch::stop() {
   copies_.stop();
   for (const auto& camera : cameras_) {
-    if (camera) camera->work.cancel();
+    if (!camera) continue;
+    camera->work.cancel();
+    camera->outline.stop();
   }
 }
 
 std::chrono::nanoseconds CameraWatch::cpu_time() const {
   std::chrono::nanoseconds time = copies_.cpu_time();
   for (const auto& camera : cameras_) {
-    if (camera) time += camera->work.cpu_time();
+    if (camera) time += camera->work.cpu_time() + camera->outline.cpu_time();
   }
   return time;
 }

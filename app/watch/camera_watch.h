@@ -20,6 +20,7 @@
 #include "app/watch/alignment_watch.h"
 #include "app/watch/ball_watch.h"
 #include "app/watch/frame_set_copies.h"
+#include "app/watch/outline_watch.h"
 #include "hal/fault.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/priority_mutex.h"
@@ -33,8 +34,11 @@ namespace orbwatch::app {
 class CameraWatch : public Sink, public WatchedCameras {
  public:
   /// Cameras that cannot be watched are named in the log. `folder`: of what must outlast a restart.
-  CameraWatch(const AlignedSite& site, const std::filesystem::path& folder,
-              const std::shared_ptr<hal::SharedThreads>& threads);
+  /// `threads` hold frames while they look at them, `outline_threads` do not.
+  CameraWatch(
+      const AlignedSite& site, const std::filesystem::path& folder,
+      const std::shared_ptr<hal::SharedThreads>& threads,
+      std::shared_ptr<hal::SharedThreads> outline_threads = hal::SharedThreads::alone("outline"));
   ~CameraWatch() override;
 
   Result<> start() override { return {}; }
@@ -76,14 +80,16 @@ class CameraWatch : public Sink, public WatchedCameras {
   /// One camera. `frame` and `stamp` belong to the pipeline's thread while nothing is `looking`,
   /// else to the work's.
   struct Watched {
-    Watched(AlignmentWatch alignment_watch, BallWatch ball_watch, Records& all_records,
-            std::shared_ptr<hal::SharedThreads> threads);
+    Watched(const std::string& name, AlignmentWatch alignment_watch, BallWatch ball_watch,
+            Records& all_records, std::shared_ptr<hal::SharedThreads> threads,
+            std::shared_ptr<hal::SharedThreads> outline_threads);
     bool can_look(const hal::FrameSet& set, std::size_t camera) const;
     void look();
     void record();
     void serve_readers();
 
     AlignmentWatch alignment;
+    OutlineWatch outline;
     BallWatch ball;
     hal::Frame frame;
     hal::TimePoint stamp;  ///< its frame set's
@@ -104,6 +110,7 @@ class CameraWatch : public Sink, public WatchedCameras {
                                         const std::filesystem::path& folder);
 
   const std::shared_ptr<hal::SharedThreads> threads_;
+  const std::shared_ptr<hal::SharedThreads> outline_threads_;
   std::array<std::atomic<hal::Fault>, kMaxCameras> faults_{};
   Records records_;
   FrameSetCopies copies_;

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "tests/app/watch/two_watched_cameras.h"
+#include "tests/proc/align/detect/painted_ball.h"
+#include "tests/support/comes_true.h"
 
 namespace orbwatch::app {
 namespace {
@@ -115,6 +117,59 @@ TEST_F(CameraWatchTest, SaysThatACameraIsNotRegistered) {
     EXPECT_EQ(watch->figures()[0].alignment, AlignmentLevel::NotMeasured);
     EXPECT_EQ(watch->figures()[1].alignment, AlignmentLevel::NotRegistered);
   }
+}
+
+/// A camera that sees a ball of which its rig states an outline that is 5 % too small.
+class OutlineTest : public CameraWatchTest {
+ protected:
+  OutlineTest() {
+    optics::RigCamera camera;
+    camera.name = "a";
+    camera.width = picture.cols;
+    camera.height = picture.rows;
+    camera.outline = align::kPaintedLimb;
+    camera.outline->rx = camera.outline->ry = 0.95 * align::kPaintedLimb.rx;
+    camera.distance = 12;
+    site.rig.cameras = {camera};
+    site.cameras = {{"a", 0, {}}};
+    watch.emplace(site, folder.path(), hal::SharedThreads::alone(), outline_threads);
+  }
+  /// Shows one picture; returns when no one holds it.
+  void show() {
+    hal::FrameSet set;
+    set.stamp = stamp += std::chrono::milliseconds(100);
+    auto buffer = hal::make_frame_pool(PixelFormat::Grey, picture.cols, picture.rows, 1).acquire();
+    std::memcpy(buffer->memory, picture.data, picture.total());
+    buffer->metadata.exposure_start = stamp;
+    const std::weak_ptr<const hal::FrameBuffer> held = buffer;
+    set.frames[0] = std::move(buffer);
+    watch->accept_frames(set);
+    set.frames = {};
+    ASSERT_TRUE(orbwatch::tests::comes_true([&] { return held.expired(); })) << "it is still held";
+  }
+
+  const cv::Mat picture = align::painted_ball(align::kPaintedSize, align::kPaintedLimb);
+  std::shared_ptr<hal::SharedThreads> outline_threads = hal::SharedThreads::alone();
+};
+
+/// A driver may have two buffers only.
+TEST_F(OutlineTest, NoFrameIsHeldWhileTheOutlineIsChecked) {
+  std::shared_future<void> may;
+  hal::SharedThreads::Work before(outline_threads, [&may] { may.wait(); });
+  std::promise<void> check;  // destroyed before the work, which then waits no longer
+  may = check.get_future().share();
+  before.request();
+  for (int n = 0; n < 60; ++n) {
+    show();
+    ASSERT_FALSE(HasFatalFailure()) << n;
+  }
+  EXPECT_EQ(watch->figures()[0].alignment, AlignmentLevel::Good) << "the zero is learnt";
+  EXPECT_EQ(watch->figures()[0].outline_check, OutlineState::Unknown);
+  check.set_value();
+  EXPECT_TRUE(orbwatch::tests::comes_true([&] {
+    show();
+    return watch->figures()[0].outline_check == OutlineState::NotAligned;
+  }));
 }
 
 }  // namespace
