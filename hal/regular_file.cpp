@@ -47,6 +47,10 @@ Result<std::string> read_regular_file(const FileDescriptor& opened,
   return not_read(file, "is larger than " + std::to_string(most >> 10) + " KiB");
 }
 
+FileDescriptor open_no_link(const std::filesystem::path& file) {
+  return FileDescriptor(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+}
+
 bool write_all(const FileDescriptor& file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(file.get(), text.data(), text.size());

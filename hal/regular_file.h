@@ -20,6 +20,10 @@ Result<std::string> read_regular_file(const FileDescriptor& opened,
                                       const std::filesystem::path& file,
                                       std::size_t most = std::size_t{1} << 20);
 
+/// Opens a file for reading, unless it is a link, and without waiting for the other end of a pipe.
+/// Not open: errno has the reason, ELOOP for a link. Reentrant.
+FileDescriptor open_no_link(const std::filesystem::path& file);
+
 /// Writes all of it. False: errno has the reason. Reentrant.
 bool write_all(const FileDescriptor& file, std::string_view text);
 

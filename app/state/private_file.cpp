@@ -44,8 +44,7 @@ Result<hal::FileDescriptor> open_folder(const fs::path& file) {
 }  // namespace
 
 Result<std::optional<std::string>> read_private(const fs::path& file) {
-  const hal::FileDescriptor opened(
-      ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const hal::FileDescriptor opened = hal::open_no_link(file);
   if (!opened.is_open() && errno == ENOENT) return std::nullopt;
   if (!opened.is_open()) return cannot(file, "read");
   auto text = hal::read_regular_file(opened, file);

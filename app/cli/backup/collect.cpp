@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/backup/collect.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "app/daemon/configuration/replaceable_file.h"
+#include "app/files/lexical_path.h"
 #include "app/model/plain_text.h"
 #include "app/model/status/utc_text.h"
 #include "app/version.h"
@@ -28,11 +28,6 @@ constexpr std::size_t kMostFiles = 2000;
 constexpr std::size_t kLongestName = 255;
 /// Permissions that are kept: a restored file is never writable by all.
 constexpr mode_t kKept = 0775;
-
-bool is_below(const fs::path& file, const fs::path& folder) {
-  const fs::path inside = file.lexically_relative(folder);
-  return !inside.empty() && *inside.begin() != "..";
-}
 
 /// A file that cannot be a key; .xml is a network profile.
 bool is_open_kind(const fs::path& file) {
@@ -79,7 +74,7 @@ class Collector {
 
   void list_named_elsewhere() {
     for (const fs::path& file : site_.named) {
-      if (is_below(file, site_.places.configuration)) continue;
+      if (files::is_lexically_below(file, site_.places.configuration)) continue;
       leave_out(file, "is not in the folder of the configuration");
     }
   }
@@ -103,7 +98,7 @@ class Collector {
     if (plain_text(name, kLongestName) != name || !check_backed_up(name)) {
       return left(file, "its name is not UTF-8, or is too long");
     }
-    const hal::FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+    const hal::FileDescriptor opened = hal::open_no_link(file);
     if (!opened.is_open()) {
       return fail(file.string() + ": cannot be read: " + std::system_category().message(errno));
     }

@@ -52,8 +52,7 @@ Result<> check_folders(const SitePlaces& places, const std::string& name) {
 Result<std::optional<ArchivedFile>> present(const SitePlaces& places, const std::string& name) {
   if (auto right = check_folders(places, name); !right) return tl::unexpected(right.error());
   const fs::path file = places.at(name);
-  const hal::FileDescriptor opened(
-      ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const hal::FileDescriptor opened = hal::open_no_link(file);
   if (!opened.is_open()) {
     if (errno == ENOENT) return std::nullopt;
     if (errno == ELOOP) return fail(file.string() + ": is a link");
@@ -213,8 +212,7 @@ Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChang
 
 Result<bool> undo_unfinished(const SitePlaces& places, DiskChanges& disk) {
   const fs::path undo = undo_file(places);
-  const hal::FileDescriptor opened(
-      ::open(undo.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const hal::FileDescriptor opened = hal::open_no_link(undo);
   if (!opened.is_open() && errno == ENOENT) return false;
   if (!opened.is_open()) return cannot(undo, "read");
   auto done = hal::read_regular_file(opened, undo, kMostKept)

@@ -9,6 +9,7 @@
 #include "app/cli/options/options.h"
 #include "app/daemon/configuration/new_configuration.h"
 #include "app/daemon/configuration/replaceable_file.h"
+#include "app/files/lexical_path.h"
 #include "app/files/resolve.h"
 #include "app/files/runtime/site_file.h"
 #include "app/files/runtime/trial.h"
@@ -47,13 +48,12 @@ Result<files::FileTexts> placed(const files::FileTexts& texts, const fs::path& f
                                 const fs::path& to) {
   files::FileTexts moved;
   for (const auto& [path, text] : texts) {
-    const fs::path inside = path.lexically_relative(from);
-    if (path.is_absolute() && (inside.empty() || *inside.begin() == ".."))
-      continue;  // it keeps its place
-    if (inside.empty() || *inside.begin() == "..") {
+    const bool is_below = files::is_lexically_below(path, from);
+    if (path.is_absolute() && !is_below) continue;  // it keeps its place
+    if (!is_below) {
       return fail(path.string() + ": is not in the folder of the configuration, " + from.string());
     }
-    moved[(to / inside).lexically_normal()] = text;
+    moved[(to / path.lexically_relative(from)).lexically_normal()] = text;
   }
   return moved;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/support/site_parts.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 
 #include "app/cli/doctor/gather.h"
 #include "app/cli/support/comments.h"
+#include "app/files/lexical_path.h"
 #include "app/state/state_folder.h"
 #include "hal/regular_file.h"
 #include "hal/thread/file_descriptor.h"
@@ -31,11 +31,6 @@ bool is_configuration(const fs::path& file) {
   return std::ranges::count(kConfigurationEndings, file.extension().string()) > 0;
 }
 
-bool is_below(const fs::path& file, const fs::path& folder) {
-  const fs::path inside = file.lexically_relative(folder);
-  return !inside.empty() && *inside.begin() != "..";
-}
-
 /// Everything below a folder except folders, sorted. `error`: why not all of it.
 std::vector<fs::path> files_below(const fs::path& folder, std::error_code& error) {
   std::vector<fs::path> files;
@@ -50,8 +45,7 @@ std::vector<fs::path> files_below(const fs::path& folder, std::error_code& error
 
 /// Reads a file of a folder in which the service may write: a link there may lead to any file.
 Result<std::string> read_no_link(const fs::path& file) {
-  const hal::FileDescriptor opened(
-      ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const hal::FileDescriptor opened = hal::open_no_link(file);
   if (opened.is_open()) return hal::read_regular_file(opened, file);
   return fail(errno == ELOOP ? "is a link"
                              : "cannot be opened: " + std::system_category().message(errno));
@@ -74,8 +68,9 @@ std::string listed(const fs::path& file, const fs::path& folder) {
 
 /// Name in the support file.
 std::string name_of(const fs::path& file, const fs::path& folder) {
-  return is_below(file, folder) ? "configuration/" + file.lexically_relative(folder).string()
-                                : "elsewhere" + file.string();
+  return files::is_lexically_below(file, folder)
+             ? "configuration/" + file.lexically_relative(folder).string()
+             : "elsewhere" + file.string();
 }
 
 /// Adds a file that the site does not name, or whose text it does not hold.

@@ -7,6 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include "app/files/lexical_path.h"
+
 namespace orbwatch::app::daemon {
 namespace {
 
@@ -40,8 +42,8 @@ std::shared_ptr<const optics::ViewProjection> shared(const pipeline::ViewPlan& v
 
 /// Path below the configuration's folder, by which its files name each other.
 std::string recorded_name(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  const auto below = file.lexically_normal().lexically_relative(folder.lexically_normal());
-  if (!below.empty() && *below.begin() != "..") return below.string();
+  const std::filesystem::path place = file.lexically_normal(), base = folder.lexically_normal();
+  if (files::is_lexically_below(place, base)) return place.lexically_relative(base).string();
   std::error_code none;  // a file that was read has an absolute path
   const auto absolute = std::filesystem::absolute(file, none).lexically_normal();
   return (std::filesystem::path(kRecordedOutside) / absolute.relative_path()).string();

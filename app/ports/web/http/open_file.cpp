@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/http/open_file.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <cerrno>
 #include <cstring>
 #include <utility>
 
+#include "hal/regular_file.h"
+
 namespace orbwatch::app::web {
 
 Result<std::shared_ptr<const OpenFile>> open_file(const std::filesystem::path& path) {
-  // A pipe would be waited for otherwise.
-  hal::FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
+  hal::FileDescriptor file = hal::open_no_link(path);
   struct stat status = {};
   if (!file.is_open() || ::fstat(file.get(), &status) != 0) {
     return fail(path.string() + ": " + std::strerror(errno));
