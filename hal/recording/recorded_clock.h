@@ -18,6 +18,11 @@ class RecordedClock {
   /// `utc`: nanoseconds since 1970 at the moment 0 of the steady clock.
   explicit RecordedClock(std::int64_t utc = 0) : utc_(utc) {}
 
+  /// The clock by which `moment` is `utc`, nanoseconds since 1970.
+  static RecordedClock when(TimePoint moment, std::uint64_t utc) {
+    return RecordedClock(static_cast<std::int64_t>(utc) - in_nanoseconds(moment));
+  }
+
   std::uint64_t to_utc(TimePoint moment) const {
     return static_cast<std::uint64_t>(in_nanoseconds(moment) + utc_);
   }

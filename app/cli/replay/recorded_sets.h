@@ -36,7 +36,7 @@ class RecordedSets {
                                    const std::vector<std::string>& cameras,
                                    const std::vector<hal::SyncPolicy>& policies);
 
-  /// By camera; those without pictures in the recording have no size.
+  /// Formats by camera; those without pictures in the recording have no size.
   std::vector<hal::StreamFormat> formats() const;
 
   /// The next set; nullopt behind the last one. Its frames must be released before the next call.

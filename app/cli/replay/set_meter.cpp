@@ -19,7 +19,7 @@ std::vector<pipeline::ViewBuffers::Views> views_of(const Recipes& recipes) {
   return views;
 }
 
-/// Whether alarms are watched: as Measurement decides it, or as it was recorded where the machine
+/// True if alarms are watched: as Measurement decides it, or as it was recorded where the machine
 /// or a command decided.
 bool is_watched(const pipeline::CompiledRecipe& recipe, bool recorded) {
   switch (recipe.plan().process_active) {

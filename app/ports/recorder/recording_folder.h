@@ -51,7 +51,7 @@ class RecordingFolder {
     std::uint64_t bytes = 0;
     std::function<Result<>()> remove;
   };
-  /// What may be deleted, the oldest first, and the bytes of all recordings.
+  /// Recordings that may be deleted, the oldest first, and the bytes of all.
   struct Contents {
     std::vector<Deletable> deletable;
     std::uint64_t bytes = 0;

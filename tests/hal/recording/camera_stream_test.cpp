@@ -5,7 +5,7 @@
 
 #include <string>
 
-/// What the messages of ROS 2 do not have, as metadata of a channel.
+/// Metadata of a channel, which has the facts that the messages of ROS 2 do not have.
 namespace orbwatch::hal::recording {
 namespace {
 

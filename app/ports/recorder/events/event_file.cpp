@@ -19,7 +19,7 @@ namespace recording = hal::recording;
 using hal::mcap::FileResult;
 
 constexpr std::string_view kPrefix = "orbwatch";
-/// Of zstd: the fastest, for pixels.
+/// Level of zstd: the fastest, for pixels.
 constexpr int kPictureLevel = 1;
 
 /// Adds the calibration of the whole picture.
@@ -50,8 +50,7 @@ FileResult<EventFile> EventFile::create(const std::filesystem::path& path,
                                         hal::TimePoint moment, Utc utc) {
   auto log = LogFile::create(path, texts, utc, kPictureLevel);
   if (!log) return hal::mcap::error_of(log);
-  const auto since_zero = std::chrono::nanoseconds(moment.time_since_epoch()).count();
-  const recording::RecordedClock clock(static_cast<std::int64_t>(nanoseconds(utc)) - since_zero);
+  const auto clock = recording::RecordedClock::when(moment, nanoseconds(utc));
   if (auto added = log->add_metadata(clock.metadata()); !added) {
     return tl::unexpected(added.error());
   }

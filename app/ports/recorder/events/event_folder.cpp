@@ -46,6 +46,12 @@ std::uint64_t bytes_in(const fs::path& folder) {
   return bytes;
 }
 
+StoredEvent stored(const fs::path& folder, std::string name, bool is_finished) {
+  std::error_code none;
+  return {std::move(name), folder, bytes_in(folder), fs::exists(folder / kEventPin, none),
+          is_finished};
+}
+
 Utc utc_of(std::uint64_t nanoseconds) {
   return Utc(std::chrono::duration_cast<Utc::duration>(std::chrono::nanoseconds(nanoseconds)));
 }
@@ -120,8 +126,7 @@ Result<std::vector<StoredEvent>> EventFolder::list() const {
     if (!is_finished) name = name_before(folder, kUnfinished);
     std::error_code none;
     if (name.empty() || !it->is_directory(none)) continue;
-    events.push_back({std::move(name), folder, bytes_in(folder),
-                      fs::exists(folder / kEventPin, none), is_finished});
+    events.push_back(stored(folder, std::move(name), is_finished));
   }
   if (error) return failure(root_, error);
   std::ranges::sort(events, {}, &StoredEvent::name);
@@ -133,13 +138,12 @@ Result<StoredEvent> EventFolder::find(std::string_view name) const {
     return fail("\"" + std::string(name) +
                 "\" is not the name of an event, such as 20261128T092200.125Z-alarm");
   }
-  const auto events = list();
-  if (!events) return tl::unexpected(events.error());
-  const auto found = std::ranges::find(*events, name, &StoredEvent::name);
-  if (found == events->end()) {
-    return fail("there is no event " + std::string(name) + " in " + root_.string());
+  for (const bool is_finished : {true, false}) {
+    const fs::path folder = root_ / std::string(name).append(is_finished ? "" : kUnfinished);
+    std::error_code none;
+    if (fs::is_directory(folder, none)) return stored(folder, std::string(name), is_finished);
   }
-  return *found;
+  return fail("there is no event " + std::string(name) + " in " + root_.string());
 }
 
 Result<fs::path> EventFolder::begin(Utc triggered, TriggerKind trigger) const {

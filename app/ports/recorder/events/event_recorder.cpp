@@ -20,7 +20,7 @@ std::size_t ring_bytes(const EventSettings& settings) {
   return static_cast<std::size_t>(settings.ring_mib) << 20;
 }
 
-/// Of the smallest picture, whatever the format of the cameras is going to be.
+/// Least bytes of a picture, whatever the formats of the cameras are going to be.
 std::size_t least_bytes(const std::vector<RecordedCamera>& cameras) {
   std::size_t least = std::size_t{1} << 20;
   for (const RecordedCamera& camera : cameras) {

@@ -13,7 +13,7 @@
 
 namespace orbwatch::app::recorder {
 
-/// What happened in an event, and what was recorded of it: summary.json in its folder.
+/// Cause and contents of an event: summary.json in its folder.
 struct EventSummary {
   std::string trigger;                 ///< name of the kind
   std::string text;                    ///< for operators, one line
@@ -35,7 +35,7 @@ inline constexpr const char* kEventSummary = "summary.json";
 inline constexpr const char* kEventPicture = "trigger.jpg";
 inline constexpr const char* kEventPin = "pinned";
 
-/// As JSON. Reentrant.
+/// JSON of a summary. Reentrant.
 std::string summary_text(const EventSummary& summary);
 
 /// Errors: of the disk.

@@ -15,7 +15,7 @@
 
 namespace orbwatch::app::recorder {
 
-/// Cause of an event.
+/// Kind of a cause.
 enum class TriggerKind : std::uint8_t { Alarm, Command, Laser, Layer };
 inline constexpr std::array kTriggerKinds{TriggerKind::Alarm, TriggerKind::Command,
                                           TriggerKind::Laser, TriggerKind::Layer};
@@ -50,7 +50,7 @@ constexpr std::string_view text_of(TriggerKind kind) {
   return {};
 }
 
-/// What happened, with its circumstances.
+/// Cause of an event, with its circumstances.
 struct Trigger {
   TriggerKind kind = TriggerKind::Command;
   hal::TimePoint stamp;  ///< of the newest frame set at that time

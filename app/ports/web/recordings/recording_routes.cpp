@@ -36,17 +36,23 @@ void RecordingRoutes::list(const ExchangePtr& exchange) const {
   changes_.read(exchange, [events = events_] { return listed(events); });
 }
 
+void RecordingRoutes::read(const ExchangePtr& exchange,
+                           std::function<Response(RecordedEvents& events)> handle) const {
+  changes_.read(exchange, [events = events_, handle = std::move(handle)] {
+    return events ? handle(*events) : error_response(404, kNone);
+  });
+}
+
 void RecordingRoutes::picture(const EventQuery& query, const ExchangePtr& exchange) const {
-  changes_.read(exchange, [events = events_, event = query.event] {
-    return events ? sent(events->picture(event), kJpeg) : error_response(404, kNone);
+  read(exchange, [event = query.event](const RecordedEvents& events) {
+    return sent(events.picture(event), kJpeg);
   });
 }
 
 void RecordingRoutes::recording(const EventQuery& query, const ExchangePtr& exchange) const {
-  changes_.read(exchange, [events = events_, event = query.event] {
-    if (!events) return error_response(404, kNone);
-    Response response = sent(events->recording(event), kMcap);
-    // An event that was found has a name of letters, digits and "-".
+  read(exchange, [event = query.event](const RecordedEvents& events) {
+    Response response = sent(events.recording(event), kMcap);
+    // An event that was found has a name of letters, digits and "-_.".
     if (response.file) {
       response.headers.emplace_back("Content-Disposition",
                                     "attachment; filename=\"" + event + ".mcap\"");
@@ -56,9 +62,8 @@ void RecordingRoutes::recording(const EventQuery& query, const ExchangePtr& exch
 }
 
 void RecordingRoutes::frames(const EventQuery& query, const ExchangePtr& exchange) const {
-  changes_.read(exchange, [events = events_, event = query.event] {
-    if (!events) return error_response(404, kNone);
-    auto frames = events->frames(event);
+  read(exchange, [event = query.event](RecordedEvents& events) {
+    auto frames = events.frames(event);
     if (!frames) return error_response(404, frames.error().message);
     FramesAnswer answer{std::move(*frames)};
     return json_response(json_text(json_of(answer)));
@@ -66,9 +71,8 @@ void RecordingRoutes::frames(const EventQuery& query, const ExchangePtr& exchang
 }
 
 void RecordingRoutes::frame(const FrameQuery& query, const ExchangePtr& exchange) const {
-  changes_.read(exchange, [events = events_, query] {
-    if (!events) return error_response(404, kNone);
-    auto jpeg = events->frame(query.event, query.camera, static_cast<std::size_t>(query.frame));
+  read(exchange, [query](RecordedEvents& events) {
+    auto jpeg = events.frame(query.event, query.camera, static_cast<std::size_t>(query.frame));
     return jpeg ? body_response(kJpeg, std::move(*jpeg))
                 : error_response(404, jpeg.error().message);
   });

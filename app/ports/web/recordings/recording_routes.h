@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -31,6 +32,10 @@ class RecordingRoutes {
   Answered<Done> remove(Change<EventQuery>& change) const;
 
  private:
+  /// Answers by `handle`, on the thread that waits for the disk; 404 without a recorder of events.
+  void read(const ExchangePtr& exchange,
+            std::function<Response(RecordedEvents& events)> handle) const;
+
   const std::shared_ptr<RecordedEvents> events_;
   Changes& changes_;
 };
