@@ -30,9 +30,12 @@ export function table(titles, label = "") {
   return { root, body };
 }
 
-// `give(name)` is called when it is pressed.
-export function commandButton(label, name, give) {
-  const button = element("button", { type: "button" }, label);
-  button.addEventListener("click", () => give(name));
-  return button;
+// `act()` is called when it is pressed.
+export function button(label, act) {
+  const made = element("button", { type: "button" }, label);
+  made.addEventListener("click", () => act());
+  return made;
 }
+
+// `give(name)` is called when it is pressed.
+export const commandButton = (label, name, give) => button(label, () => give(name));

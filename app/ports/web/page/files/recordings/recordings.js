@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events with the cameras' pictures from before and after a trigger, kept by the recorder.
 import { command, post } from "../appliance/api.js";
+import { decimalText } from "../elements/amounts.js";
+import { Cards } from "../elements/cards.js";
 import { momentText, timeZone } from "../elements/clock.js";
-import { element, setText } from "../elements/elements.js";
+import { button, element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { Viewer } from "./viewer.js";
 
@@ -11,12 +13,6 @@ const kKinds = ["alarm", "command", "laser_on", "layer"];
 const kMebibyte = 2 ** 20;
 
 const pathOf = (file, name) => `api/v1/recordings/${file}?${new URLSearchParams({ event: name })}`;
-
-function button(label, act) {
-  const made = element("button", { type: "button" }, label);
-  made.addEventListener("click", act);
-  return made;
-}
 
 // One event, updated in place. `change(path, body)` requests a change, `look(event, title)` shows its pictures.
 class Card {
@@ -50,7 +46,7 @@ class Card {
     setText(this.cause, event.trigger === "alarm" ? event.cause : said.kinds[event.trigger] ?? event.cause);
     setText(this.when, momentText(event.triggered || event.first));
     setText(this.machine, said.machine(event.part, event.layer));
-    setText(this.about, said.about(event.pictures, event.bytes / kMebibyte));
+    setText(this.about, said.about(event.pictures, decimalText(event.bytes / kMebibyte, 1)));
     setText(this.wrong, [event.is_finished ? "" : said.unfinished, event.is_interrupted ? said.interrupted : "",
       event.has_beginning ? "" : said.noBeginning, event.lost > 0 ? said.lost(event.lost) : ""]
       .filter(Boolean).join(" "));
@@ -69,13 +65,13 @@ class Card {
 }
 
 export class Recordings {
-  #cards = new Map();  // by name
+  #cards;
   #events = [];
   #again = 0;
 
   // `may(role)`: true if the user may do what the role may.
   constructor(root, may) {
-    Object.assign(this, { root, may });
+    this.root = root;
     this.said = element("p", { role: "status" });
     this.refused = element("p", { role: "alert", className: "wrong" });
     this.record = button(texts.recordings.record, () => this.#tell(command("record_event", {})));
@@ -92,6 +88,11 @@ export class Recordings {
     this.filters.addEventListener("submit", (event) => event.preventDefault());
     this.list = element("ul", { id: "events" });
     this.viewer = new Viewer();
+    const asked = {
+      change: (path, body) => this.#tell(post(`api/v1/${path}`, body)),
+      look: (event, title) => this.viewer.open(event, title),
+    };
+    this.#cards = new Cards(this.list, ({ name }) => name, (event) => new Card(event, asked, may));
     root.append(this.viewer.root, element("p", { className: "buttons" }, may("operator") ? this.record : ""),
       this.filters, this.said, this.refused, this.list);
     addEventListener("hashchange", () => this.#read());
@@ -131,28 +132,6 @@ export class Recordings {
   #show() {
     const shown = this.#events.filter((event) => this.#isWanted(event));
     setText(this.said, texts.recordings.count(shown.length, this.#events.length));
-    const listed = new Set(shown.map(({ name }) => name));
-    for (const [name, card] of this.#cards) {
-      if (listed.has(name)) continue;
-      card.root.remove();
-      this.#cards.delete(name);
-    }
-    shown.forEach((event, place) => {
-      const card = this.#card(event);
-      card.show(event);
-      // Moves only misplaced elements, so that focus and scroll position are kept.
-      if (this.list.children[place] !== card.root) {
-        this.list.insertBefore(card.root, this.list.children[place] ?? null);
-      }
-    });
-  }
-
-  #card(event) {
-    if (!this.#cards.has(event.name)) {
-      const change = (path, body) => this.#tell(post(`api/v1/${path}`, body));
-      const look = (shown, title) => this.viewer.open(shown, title);
-      this.#cards.set(event.name, new Card(event, { change, look }, this.may));
-    }
-    return this.#cards.get(event.name);
+    this.#cards.show(shown);
   }
 }

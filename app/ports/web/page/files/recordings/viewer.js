@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of one event, one after the other, beginning with that of the trigger.
+import { decimalText } from "../elements/amounts.js";
 import { secondText } from "../elements/clock.js";
-import { element, setText } from "../elements/elements.js";
+import { button, element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kDigits = 2;  // of seconds from the trigger
@@ -23,19 +24,14 @@ export class Viewer {
     this.picture.addEventListener("error", () => this.#end(said.noPicture));
     this.place = element("input", { type: "range", min: 0, step: 1, "aria-label": said.place });
     this.place.addEventListener("input", () => this.#show());
-    const step = (label, by) => {
-      const button = element("button", { type: "button" }, label);
-      button.addEventListener("click", () => this.#step(by));
-      return button;
-    };
-    const close = element("button", { type: "button" }, said.close);
-    close.addEventListener("click", () => this.close());
     this.when = element("output");
     this.failed = element("p", { role: "alert", className: "wrong" });
     this.root = element("section", { id: "viewer", hidden: true }, this.heading,
-      element("p", { className: "buttons" }, element("label", {}, texts.align.camera, " ", this.camera), close),
+      element("p", { className: "buttons" }, element("label", {}, texts.align.camera, " ", this.camera),
+        button(said.close, () => this.close())),
       this.picture, this.place,
-      element("p", { className: "buttons" }, step(said.before, -1), step(said.after, 1), this.when), this.failed);
+      element("p", { className: "buttons" }, button(said.before, () => this.#step(-1)),
+        button(said.after, () => this.#step(1)), this.when), this.failed);
   }
 
   async open(event, title) {
@@ -82,7 +78,8 @@ export class Viewer {
     const frame = this.place.valueAsNumber, time = this.#times[frame];
     if (time === undefined) return;
     const offset = (time - Date.parse(this.#event.triggered || this.#event.first)) / 1000;
-    setText(this.when, texts.recordings.moment(frame + 1, this.#times.length, secondText(time), offset.toFixed(kDigits)));
+    setText(this.when, texts.recordings.moment(
+      frame + 1, this.#times.length, secondText(time), decimalText(offset, kDigits)));
     this.picture.alt = texts.recordings.frame(this.camera.value, frame + 1);
     if (!this.#isLoading) this.#load();
   }

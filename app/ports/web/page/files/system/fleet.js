@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All appliances of the DDS domain, updated while shown.
 import { post } from "../appliance/api.js";
+import { Cards } from "../elements/cards.js";
 import { momentText } from "../elements/clock.js";
 import { element, setText } from "../elements/elements.js";
 import { texts, translated } from "../texts.js";
@@ -55,13 +56,14 @@ class Card {
 }
 
 export class Fleet {
-  #cards = new Map();  // cards by id
+  #cards;
   #again = 0;
 
   constructor(root, mayForget) {
     this.root = root;
     this.said = element("p", { role: "status" });
     this.list = element("ul", { id: "appliances" });
+    this.#cards = new Cards(this.list, ({ id }) => id, () => new Card());
     this.forget = element("button", { type: "button", hidden: true }, texts.fleet.forget);
     this.forget.addEventListener("click", () => this.#forget());
     root.append(this.said, this.list, mayForget ? this.forget : "");
@@ -92,24 +94,6 @@ export class Fleet {
     const alarming = appliances.filter((one) => !one.is_gone && one.alarms > 0).length;
     setText(this.said, texts.fleet.count(appliances.length, gone, alarming, turnedAway > 0));
     this.forget.hidden = gone === 0;
-    const listed = new Set(appliances.map(({ id }) => id));
-    for (const [id, card] of this.#cards) {
-      if (listed.has(id)) continue;
-      card.root.remove();
-      this.#cards.delete(id);
-    }
-    appliances.forEach((appliance, place) => {
-      const card = this.#card(appliance.id);
-      card.show(appliance);
-      // Moves only misplaced elements, so that focus and scroll position are kept.
-      if (this.list.children[place] !== card.root) {
-        this.list.insertBefore(card.root, this.list.children[place] ?? null);
-      }
-    });
-  }
-
-  #card(id) {
-    if (!this.#cards.has(id)) this.#cards.set(id, new Card());
-    return this.#cards.get(id);
+    this.#cards.show(appliances);
   }
 }

@@ -324,7 +324,7 @@ export const texts = {
     machine: (part, layer) => [part ? `Teil ${part}` : "", layer === null ? "" : `Lage ${layer}`]
       .filter(Boolean).join(", "),
     about: (pictures, mebibytes) => `${pictures} ${pictures === 1 ? "Bild" : "Bilder"}, ` +
-      `${mebibytes.toFixed(1).replace(".", ",")} MiB`,
+      `${mebibytes} MiB`,
     picture: (cause) => `Bild des Auslösers: ${cause}`,
     unfinished: "Es wird gerade aufgezeichnet.",
     interrupted: "Es wurde unterbrochen.",
@@ -338,7 +338,7 @@ export const texts = {
     after: "Eins danach",
     place: "Bild des Ereignisses",
     noPicture: "Das Bild konnte nicht geladen werden.",
-    moment: (number, all, time, seconds) => `${number} von ${all}, ${time}, ${seconds.replace(".", ",")} s vom Auslöser`,
+    moment: (number, all, time, seconds) => `${number} von ${all}, ${time}, ${seconds} s vom Auslöser`,
     frame: (camera, number) => `Bild ${number} von ${camera}`,
     removeAsks: (cause) => `Dieses Ereignis endgültig löschen? ${cause}`,
   },

@@ -315,7 +315,7 @@ export const texts = {
     machine: (part, layer) => [part ? `part ${part}` : "", layer === null ? "" : `layer ${layer}`]
       .filter(Boolean).join(", "),
     about: (pictures, mebibytes) => `${pictures} ${pictures === 1 ? "picture" : "pictures"}, ` +
-      `${mebibytes.toFixed(1)} MiB`,
+      `${mebibytes} MiB`,
     picture: (cause) => `Picture of the trigger: ${cause}`,
     unfinished: "It is being recorded.",
     interrupted: "It was interrupted.",

@@ -308,7 +308,7 @@ export const texts = {
     count: (shown, all) => (shown === all ? `イベント ${all} 件` : `イベント ${all} 件中 ${shown} 件`),
     machine: (part, layer) => [part ? `部品 ${part}` : "", layer === null ? "" : `層 ${layer}`]
       .filter(Boolean).join("、"),
-    about: (pictures, mebibytes) => `画像 ${pictures} 枚、${mebibytes.toFixed(1)} MiB`,
+    about: (pictures, mebibytes) => `画像 ${pictures} 枚、${mebibytes} MiB`,
     picture: (cause) => `トリガーの画像: ${cause}`,
     unfinished: "記録中です。",
     interrupted: "中断されました。",
