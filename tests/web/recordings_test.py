@@ -93,6 +93,15 @@ class Recordings(PageCase):
         self.press("Close")
         self.assertFalse(self.browser.find_element(By.ID, "viewer").is_displayed())
 
+    def test_an_event_that_is_being_recorded_says_so(self):
+        unfinished = self.appliance.folder / "recordings/events/20200101T000000.000Z-command.unfinished"
+        unfinished.mkdir(parents=True)
+        self.addCleanup(unfinished.rmdir)
+        self.browser.get(f"{self.appliance.address}#/recordings")
+        eventually("it is shown", lambda: "It is being recorded." in self.browser.text("#events"))
+        self.assertFalse(self.browser.find_element(By.XPATH, "//button[text()='Look at it']").is_enabled())
+        self.assertEqual(self.browser.complaints(), [])
+
     def test_nothing_bars_people_from_events_and_their_pictures(self):
         def show():
             self.browser.get(f"{self.appliance.address}#/recordings")

@@ -2,6 +2,7 @@
 #include "app/ports/web/web_sink.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace orbwatch::app {
 namespace {
 
 constexpr auto kWatchPeriod = std::chrono::milliseconds(250);
+/// Requests that a browser makes at the same time: a list has a picture per event.
+constexpr std::size_t kMostOfBrowser = 6;
 
 }  // namespace
 
@@ -26,7 +29,8 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       file_changes_(access_, audit_, "web files",
                     "other users are changing the configuration at present; try again"),
       recording_changes_(access_, audit_, "web recordings",
-                         "recordings are being read for other users at present; try again"),
+                         "recordings are being read for other users at present; try again",
+                         kMostOfBrowser),
       list_(context),
       pixels_(context),
       status_(context.names, {[this] { return statistics(); }, context.metrics},

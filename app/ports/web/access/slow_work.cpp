@@ -13,7 +13,7 @@ void SlowWork::start() {
 
 void SlowWork::run(const ExchangePtr& exchange, const Asker& asker,
                    std::function<Response()> work) {
-  const std::size_t most = asker.is_known ? kMostOfKnown : kMostOfUnknown;
+  const std::size_t most = asker.is_known ? most_of_known_ : kMostOfUnknown;
   const auto is_own = [&asker](const Waiting& waiting) { return waiting.key == asker.key; };
   if ((asker.is_known ? known_ : unknown_)
           .put({asker.key, exchange, std::move(work)}, most, is_own)) {

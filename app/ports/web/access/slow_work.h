@@ -21,7 +21,7 @@ class SlowWork {
  public:
   /// Limit of each queue; a further request is refused with 503.
   static constexpr std::size_t kMostWaiting = 8;
-  /// Limits of one client in its queue.
+  /// Usual limits of one client in its queue.
   static constexpr std::size_t kMostOfKnown = 4;
   static constexpr std::size_t kMostOfUnknown = 2;
 
@@ -33,8 +33,9 @@ class SlowWork {
   };
 
   /// `thread` is its name; `busy` is the reason with which further requests are refused. Both are
-  /// stored as pointers.
-  SlowWork(const char* thread, const char* busy) : thread_name_(thread), busy_(busy) {}
+  /// stored as pointers. `most_of_known`: limit of one known client.
+  SlowWork(const char* thread, const char* busy, std::size_t most_of_known = kMostOfKnown)
+      : thread_name_(thread), busy_(busy), most_of_known_(most_of_known) {}
 
   void start();
   void stop() { thread_.stop(); }
@@ -57,6 +58,7 @@ class SlowWork {
 
   const char* const thread_name_;
   const char* const busy_;
+  const std::size_t most_of_known_;
   hal::BoundedQueue<Waiting, kMostWaiting> known_, unknown_;
   bool was_known_ = false;  ///< kind of the client served last; used by the thread only
   hal::Thread thread_;

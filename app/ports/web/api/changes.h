@@ -53,9 +53,10 @@ Response refused(const Access::Refusal& refusal);
 /// owner; everything else on any thread.
 class Changes {
  public:
-  /// `access` and `audit` outlive it. `thread` and `busy` as for SlowWork.
-  Changes(Access& access, Audit& audit, const char* thread, const char* busy)
-      : access_(access), audit_(audit), work_(thread, busy) {}
+  /// `access` and `audit` outlive it. The others as for SlowWork.
+  Changes(Access& access, Audit& audit, const char* thread, const char* busy,
+          std::size_t most_of_known = SlowWork::kMostOfKnown)
+      : access_(access), audit_(audit), work_(thread, busy, most_of_known) {}
 
   void start() { work_.start(); }
   void stop() { work_.stop(); }

@@ -40,11 +40,11 @@ class Card {
   }
 
   show(event) {
-    const said = texts.recordings;
+    const said = texts.recordings, moment = event.triggered || event.first;
     this.#event = event;
     this.isPinned = event.is_pinned;
     setText(this.cause, event.trigger === "alarm" ? event.cause : said.kinds[event.trigger] ?? event.cause);
-    setText(this.when, momentText(event.triggered || event.first));
+    setText(this.when, moment ? momentText(moment) : "");
     setText(this.machine, said.machine(event.part, event.layer));
     setText(this.about, said.about(event.pictures, decimalText(event.bytes / kMebibyte, 1)));
     setText(this.wrong, [event.is_finished ? "" : said.unfinished, event.is_interrupted ? said.interrupted : "",

@@ -6,6 +6,7 @@ import { button, element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kDigits = 2;  // of seconds from the trigger
+const kAgainMs = 1000;
 
 export class Viewer {
   #event = null;
@@ -13,6 +14,7 @@ export class Viewer {
   #times = [];    // those of the chosen one
   #path = "";     // of the picture that was asked for last
   #isLoading = false;
+  #again = 0;
 
   constructor() {
     const said = texts.recordings;
@@ -34,17 +36,23 @@ export class Viewer {
         button(said.after, () => this.#step(1)), this.when), this.failed);
   }
 
-  async open(event, title) {
+  open(event, title) {
     this.#event = event;
     this.root.hidden = false;
     setText(this.heading, title);
     setText(this.failed, "");
+    return this.#read(event);
+  }
+
+  async #read(event) {
+    clearTimeout(this.#again);
     const answer = await fetch(`api/v1/recordings/frames?${new URLSearchParams({ event: event.name })}`)
       .catch(() => null);
     const read = await answer?.json().catch(() => null);
     if (this.#event !== event) return;
     if (!read?.cameras) {
       setText(this.failed, texts.refused(read?.error ?? texts.recordings.noPicture));
+      this.#again = setTimeout(() => this.#read(event), kAgainMs);
       return;
     }
     this.#cameras = Object.fromEntries(read.cameras.map(({ camera, times }) =>
@@ -57,6 +65,7 @@ export class Viewer {
 
   close() {
     this.#event = null;
+    clearTimeout(this.#again);
     this.root.hidden = true;
   }
 
@@ -84,8 +93,9 @@ export class Viewer {
     if (!this.#isLoading) this.#load();
   }
 
-  // One picture is loaded at a time, then the newest that was asked for.
+  // Loads one picture at a time, then the newest that was asked for. What a busy appliance refuses is asked for again.
   #load() {
+    clearTimeout(this.#again);
     const query = new URLSearchParams(
       { event: this.#event.name, camera: this.camera.value, frame: this.place.value });
     const path = `api/v1/recordings/frame.jpg?${query}`;
@@ -99,6 +109,8 @@ export class Viewer {
     this.#isLoading = false;
     if (!this.#event) return;
     setText(this.failed, failure);
-    this.#load();
+    if (!failure) return this.#load();
+    this.#path = "";
+    this.#again = setTimeout(() => this.#load(), kAgainMs);
   }
 }
