@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,8 @@ struct RecordedEvent {
   double layer = signals::kNotValid;   ///< of the part
   std::uint64_t pictures = 0;          ///< of all cameras
   std::uint64_t lost = 0;              ///< pictures that found no room
-  std::uint64_t bytes = 0;
-  bool is_pinned = false;       ///< it is not deleted for room
+  std::uint64_t bytes = 0;             ///< while it is being recorded, less than it has
+  bool is_pinned = false;              ///< it is not deleted for room
   bool is_finished = true;      ///< false: it is being recorded, or the power failed meanwhile
   bool has_beginning = true;    ///< false: pictures before the trigger are missing
   bool is_interrupted = false;  ///< it was not recorded to its end
@@ -40,8 +41,9 @@ struct RecordedFrames {
 class RecordedEvents {
  public:
   virtual ~RecordedEvents() = default;
-  /// The oldest first. Error: the folder cannot be read.
-  virtual Result<std::vector<RecordedEvent>> list() const = 0;
+  /// The oldest first; the same object as long as nothing has changed. Error: the folder cannot be
+  /// read.
+  virtual Result<std::shared_ptr<const std::vector<RecordedEvent>>> list() = 0;
 
   // Errors: no such event, or the disk.
 

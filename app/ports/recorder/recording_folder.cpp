@@ -6,9 +6,11 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/log.h"
 #include "app/ports/recorder/disk_space.h"
+#include "app/ports/recorder/folder_change.h"
 #include "hal/calendar_time.h"
 #include "hal/mcap/completion.h"
 
@@ -80,54 +82,95 @@ fs::path RecordingFolder::name_for(std::chrono::system_clock::time_point utc) co
   return file;
 }
 
-Result<RecordingFolder::Contents> RecordingFolder::contents(const fs::path& current) const {
-  const auto logs = list();
-  if (!logs) return tl::unexpected(logs.error());
-  const auto events = events_.list();
-  if (!events) return tl::unexpected(events.error());
-  Contents contents;
-  for (const Recording& log : *logs) {
-    contents.bytes += log.bytes;
-    if (log.file == current) continue;
-    const auto remove = [file = log.file]() -> Result<> {
-      std::error_code error;
-      if (!fs::remove(file, error) && error) return fail(text_of(file, error));
-      return {};
-    };
-    const std::string name = log.file.filename().string().substr(kLogName.size());
-    contents.deletable.push_back({name, log.bytes, remove});
+/// Follows the folder.
+Result<> RecordingFolder::update(const fs::path& current) {
+  const auto changed = settled_change(settings_.folder);
+  const bool has_other_logs = !changed || changed != changed_ || current != current_;
+  if (has_other_logs) {
+    auto logs = list();
+    if (!logs) return tl::unexpected(logs.error());
+    logs_ = std::move(*logs);
+    changed_ = changed;
+    current_ = current;
   }
-  for (const StoredEvent& event : *events) {
-    contents.bytes += event.bytes;
-    if (event.is_pinned || !event.is_finished) continue;
-    const auto remove = [this, event] { return events_.remove(event); };
-    contents.deletable.push_back({event.name, event.bytes, remove});
+  const auto has_other_events = index_.update();
+  if (!has_other_events) return tl::unexpected(has_other_events.error());
+  if (!has_other_logs && !*has_other_events) return {};
+  still_bytes_ = 0;
+  for (const Recording& log : logs_) still_bytes_ += log.file == current_ ? 0 : log.bytes;
+  for (const StoredEvent& event : index_.events()) {
+    still_bytes_ += event.is_finished ? event.bytes : 0;
   }
-  std::ranges::sort(contents.deletable, {}, &Deletable::begun);
-  return contents;
+  return {};
 }
 
-Result<int> RecordingFolder::make_room(const fs::path& current) const {
-  auto found = contents(current);
-  if (!found) return tl::unexpected(found.error());
+/// Bytes of all recordings.
+std::uint64_t RecordingFolder::bytes() const {
+  std::error_code error;
+  const std::uintmax_t current = fs::file_size(current_, error);
+  std::uint64_t bytes = still_bytes_ + (error ? 0 : current);
+  for (const StoredEvent& event : index_.unfinished()) {
+    const auto grown = events_.find(event.name);
+    bytes += grown ? grown->bytes : 0;
+  }
+  return bytes;
+}
+
+/// Recordings that may be deleted, the oldest first.
+std::vector<RecordingFolder::Deletable> RecordingFolder::deletable() const {
+  std::vector<Deletable> deletable;
+  for (const Recording& log : logs_) {
+    if (log.file == current_) continue;
+    const auto remove = [file = log.file]() -> Result<bool> {
+      std::error_code error;
+      if (!fs::remove(file, error) && error) return fail(text_of(file, error));
+      return true;
+    };
+    const std::string name = log.file.filename().string().substr(kLogName.size());
+    deletable.push_back({name, log.bytes, remove});
+  }
+  for (const StoredEvent& event : index_.events()) {
+    if (event.is_pinned || !event.is_finished) continue;
+    deletable.push_back({event.name, event.bytes, [this, &event] { return remove(event); }});
+  }
+  std::ranges::sort(deletable, {}, &Deletable::begun);
+  return deletable;
+}
+
+/// Deletes an event. False: it was pinned since it was listed.
+Result<bool> RecordingFolder::remove(const StoredEvent& listed) const {
+  const auto event = events_.find(listed.name);
+  if (!event) return true;  // another program was quicker
+  if (event->is_pinned || !event->is_finished) return false;
+  return events_.remove(*event).map([] { return true; });
+}
+
+Result<int> RecordingFolder::make_room(const fs::path& current) {
+  if (auto updated = update(current); !updated) return tl::unexpected(updated.error());
   const auto limit = static_cast<std::uint64_t>(settings_.limit_mib) * kMebibyte;
   const auto reserve = static_cast<std::uint64_t>(settings_.reserve_mib) * kMebibyte;
+  std::uint64_t left = bytes();
+  std::optional<std::vector<Deletable>> all;
+  std::size_t oldest = 0;
   int removed = 0;
-  for (auto oldest = found->deletable.begin();; ++oldest) {
+  for (;;) {
     std::error_code error;
     const fs::space_info space = fs::space(settings_.folder, error);
     if (error) return fail(text_of(settings_.folder, error));
     const bool is_short = space.available < reserve;
-    if (found->bytes <= limit && !is_short) return removed;
-    if (oldest == found->deletable.end()) {
+    if (left <= limit && !is_short) return removed;
+    if (!all) all = deletable();
+    if (oldest == all->size()) {
       if (!is_short) return removed;
       return fail(settings_.folder.string() + " has " +
                   std::to_string(space.available / kMebibyte) +
                   " MiB left, less than reserve_mib, and no recording to delete");
     }
-    if (auto done = oldest->remove(); !done) return tl::unexpected(done.error());
-    found->bytes -= oldest->bytes;
-    ++removed;
+    const auto done = (*all)[oldest].remove();
+    if (!done) return tl::unexpected(done.error());
+    left -= *done ? (*all)[oldest].bytes : 0;
+    removed += *done ? 1 : 0;
+    ++oldest;
   }
 }
 

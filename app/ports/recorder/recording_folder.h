@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "app/ports/recorder/events/event_folder.h"
+#include "app/ports/recorder/events/event_index.h"
 #include "app/ports/recorder/recorder_settings.h"
 #include "proc/image/result.h"
 
@@ -22,11 +24,12 @@ struct Recording {
 };
 
 /// The folder of recordings, logs and events, kept within its limits; other files in it are not
-/// touched. The folder is the truth, there is no index beside it. Thread-bound; waits for the disk.
+/// touched. The folder is the truth; it is read again when names in it changed. Thread-bound; waits
+/// for the disk.
 class RecordingFolder {
  public:
   explicit RecordingFolder(const RecorderSettings& settings)
-      : settings_(settings), events_(settings.folder) {}
+      : settings_(settings), events_(settings.folder), index_(settings.folder) {}
 
   /// Creates the folders and finishes recordings that an earlier run did not end; what cannot be
   /// finished is logged and stays. Errors: the folder; a full disk, for which they wait.
@@ -41,25 +44,29 @@ class RecordingFolder {
 
   /// Deletes the oldest logs and events until the limits hold, except the log `current`, events
   /// that are pinned, and those that are being recorded; returns their number.
+  /// Without a change in the folder and with room this costs the same however many there are.
   /// Errors: the folder; the disk has less than the reserve although there is none to delete.
-  Result<int> make_room(const std::filesystem::path& current) const;
+  Result<int> make_room(const std::filesystem::path& current);
 
  private:
   /// A log or an event that may be deleted.
   struct Deletable {
     std::string begun;  ///< by its name
     std::uint64_t bytes = 0;
-    std::function<Result<>()> remove;
+    std::function<Result<bool>()> remove;  ///< false: it must stay now
   };
-  /// Recordings that may be deleted, the oldest first, and the bytes of all.
-  struct Contents {
-    std::vector<Deletable> deletable;
-    std::uint64_t bytes = 0;
-  };
-  Result<Contents> contents(const std::filesystem::path& current) const;
+  Result<> update(const std::filesystem::path& current);
+  std::uint64_t bytes() const;
+  std::vector<Deletable> deletable() const;
+  Result<bool> remove(const StoredEvent& listed) const;
 
   const RecorderSettings settings_;
   EventFolder events_;
+  EventIndex index_;
+  std::optional<std::filesystem::file_time_type> changed_;  ///< when logs_ was read
+  std::vector<Recording> logs_;
+  std::filesystem::path current_;               ///< the log that grows
+  std::uint64_t still_bytes_ = 0;               ///< of all recordings that do not grow
   std::set<std::filesystem::path> unfinished_;  ///< those that cannot be finished, logged once
 };
 

@@ -235,7 +235,7 @@ std::vector<Route> recording_routes(const RouteOwners& of) {
       get<&RecordingRoutes::list, RecordingsAnswer>(
           "/api/v1/recordings", Viewer, of.recordings,
           "Returns the recorder's events, each with the cameras' pictures from before and after a "
-          "trigger"),
+          "trigger. The ETag changes with the list"),
       get<&RecordingRoutes::picture>("/api/v1/recordings/trigger.jpg", Viewer, of.recordings,
                                      "Returns the picture of an event's trigger", kJpeg),
       get<&RecordingRoutes::frames, FramesAnswer>(

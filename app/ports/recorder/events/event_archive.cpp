@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/recorder/events/event_archive.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -37,13 +38,22 @@ RecordedEvent recorded(const StoredEvent& stored) {
 
 }  // namespace
 
-Result<std::vector<RecordedEvent>> EventArchive::list() const {
-  return folder_.list().map([](const std::vector<StoredEvent>& stored) {
-    std::vector<RecordedEvent> events;
-    events.reserve(stored.size());
-    for (const StoredEvent& one : stored) events.push_back(recorded(one));
-    return events;
-  });
+Result<std::shared_ptr<const std::vector<RecordedEvent>>> EventArchive::list() {
+  const std::lock_guard lock(mutex_);
+  const auto updated = index_.update();
+  if (!updated) return tl::unexpected(updated.error());
+  if (!*updated) return listed_;
+  auto events = std::make_shared<std::vector<RecordedEvent>>();
+  events->reserve(index_.events().size());
+  for (const StoredEvent& one : index_.events()) {
+    const auto known = std::ranges::lower_bound(stored_, one.name, {}, &StoredEvent::name);
+    const bool is_same = one.changed && known != stored_.end() && *known == one;
+    events->push_back(is_same ? (*listed_)[static_cast<std::size_t>(known - stored_.begin())]
+                              : recorded(one));
+  }
+  stored_ = index_.events();
+  listed_ = std::move(events);
+  return listed_;
 }
 
 Result<StoredEvent> EventArchive::finished(std::string_view event) const {

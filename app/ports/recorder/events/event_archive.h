@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <mutex>
+#include <vector>
+
 #include "app/model/sink/recorded_events.h"
 #include "app/ports/recorder/events/event_folder.h"
+#include "app/ports/recorder/events/event_index.h"
 #include "app/ports/recorder/events/event_pictures.h"
 
 namespace orbwatch::app::recorder {
 
-/// The events of a recorder that may be recording. Thread-safe: it reads the folder anew each time.
+/// The events of a recorder that may be recording. A list costs what has changed since the one
+/// before, see EventIndex. Thread-safe.
 class EventArchive final : public RecordedEvents {
  public:
-  explicit EventArchive(const std::filesystem::path& recordings) : folder_(recordings) {}
+  explicit EventArchive(const std::filesystem::path& recordings)
+      : folder_(recordings), index_(recordings) {}
 
-  Result<std::vector<RecordedEvent>> list() const override;
+  Result<std::shared_ptr<const std::vector<RecordedEvent>>> list() override;
   Result<std::filesystem::path> recording(std::string_view event) const override;
   Result<std::filesystem::path> picture(std::string_view event) const override;
   Result<std::vector<RecordedFrames>> frames(std::string_view event) override;
@@ -28,6 +35,11 @@ class EventArchive final : public RecordedEvents {
 
   const EventFolder folder_;
   EventPictures pictures_;
+  std::mutex mutex_;
+  EventIndex index_;                 ///< guarded by mutex_
+  std::vector<StoredEvent> stored_;  ///< as in listed_; guarded by mutex_
+  std::shared_ptr<const std::vector<RecordedEvent>> listed_ =
+      std::make_shared<std::vector<RecordedEvent>>();  ///< guarded by mutex_
 };
 
 }  // namespace orbwatch::app::recorder

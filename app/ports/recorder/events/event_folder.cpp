@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/recorder/events/event_folder.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +14,7 @@
 #include "app/ports/recorder/disk_space.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "app/ports/recorder/events/event_summary.h"
+#include "app/ports/recorder/folder_change.h"
 #include "hal/atomic_file.h"
 #include "hal/mcap/completion.h"
 #include "hal/mcap/reader.h"
@@ -47,9 +52,19 @@ std::uint64_t bytes_in(const fs::path& folder) {
 }
 
 StoredEvent stored(const fs::path& folder, std::string name, bool is_finished) {
+  const auto changed = settled_change(folder);  // before it is read
   std::error_code none;
   return {std::move(name), folder, bytes_in(folder), fs::exists(folder / kEventPin, none),
-          is_finished};
+          is_finished,     changed};
+}
+
+/// The event of this folder in a list, if its folder has not changed since; null otherwise.
+const StoredEvent* unchanged(std::span<const StoredEvent> known, const fs::path& folder,
+                             const std::string& name) {
+  const auto found = std::ranges::lower_bound(known, name, {}, &StoredEvent::name);
+  const bool is_same = found != known.end() && found->folder == folder && found->changed &&
+                       found->changed == settled_change(folder);
+  return is_same ? &*found : nullptr;
 }
 
 Utc utc_of(std::uint64_t nanoseconds) {
@@ -115,7 +130,7 @@ Result<> EventFolder::recover(const fs::path& unfinished) const {
   return update_summary(unfinished).and_then([&] { return finish(unfinished); });
 }
 
-Result<std::vector<StoredEvent>> EventFolder::list() const {
+Result<std::vector<StoredEvent>> EventFolder::list(std::span<const StoredEvent> known) const {
   std::vector<StoredEvent> events;
   std::error_code error;
   if (!fs::exists(root_, error) && !error) return events;
@@ -126,7 +141,8 @@ Result<std::vector<StoredEvent>> EventFolder::list() const {
     if (!is_finished) name = name_before(folder, kUnfinished);
     std::error_code none;
     if (name.empty() || !it->is_directory(none)) continue;
-    events.push_back(stored(folder, std::move(name), is_finished));
+    const StoredEvent* const same = unchanged(known, folder, name);
+    events.push_back(same ? *same : stored(folder, std::move(name), is_finished));
   }
   if (error) return failure(root_, error);
   std::ranges::sort(events, {}, &StoredEvent::name);
@@ -177,11 +193,16 @@ Result<> EventFolder::remove(const StoredEvent& event) const {
 }
 
 Result<> EventFolder::set_pinned(const StoredEvent& event, bool is_pinned) {
-  if (is_pinned) return hal::write_file(event.folder / kEventPin, std::string_view());
   std::error_code error;
-  fs::remove(event.folder / kEventPin, error);
-  if (error) return failure(event.folder, error);
-  return {};
+  if (is_pinned) {
+    auto written = hal::write_file(event.folder / kEventPin, std::string_view());
+    if (!written) return written;
+  } else if (!fs::remove(event.folder / kEventPin, error) && error) {
+    return failure(event.folder, error);
+  }
+  const fs::path root = event.folder.parent_path();
+  if (::utimensat(AT_FDCWD, root.c_str(), nullptr, 0) == 0) return {};
+  return failure(root, {errno, std::generic_category()});
 }
 
 }  // namespace orbwatch::app::recorder

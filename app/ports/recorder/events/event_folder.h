@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,21 +23,29 @@ struct StoredEvent {
   std::uint64_t bytes = 0;
   bool is_pinned = false;
   bool is_finished = true;  ///< false: it is being recorded, or its recorder ended early
+  /// Of `folder`, see settled_change().
+  std::optional<std::filesystem::file_time_type> changed;
+
+  bool operator==(const StoredEvent&) const = default;
 };
 
-/// The folder `events` of recordings: one folder for each event, which is the truth; there is no
-/// index beside it. An event that is being recorded has the name NAME.unfinished, one that is being
-/// deleted NAME.deleted. What has other names is not touched. Thread-bound; waits for the disk.
+/// The folder `events` of recordings: one folder for each event, which is the truth; no index
+/// is stored beside it. An event that is being recorded has the name NAME.unfinished, one that is
+/// being deleted NAME.deleted. What has other names is not touched. Thread-bound; waits for the
+/// disk.
 class EventFolder {
  public:
   explicit EventFolder(const std::filesystem::path& recordings) : root_(recordings / "events") {}
+
+  const std::filesystem::path& path() const { return root_; }
 
   /// Finishes events whose recorder ended early, and ends deletions. What cannot be finished is
   /// logged once and stays. Errors: the folder; a full disk, for which they wait.
   Result<> prepare();
 
-  /// The oldest first by their names; none without the folder. Error: the folder.
-  Result<std::vector<StoredEvent>> list() const;
+  /// The oldest first by their names; none without the folder. Those of the list `known` whose
+  /// folders have not changed since are not read again. Error: the folder.
+  Result<std::vector<StoredEvent>> list(std::span<const StoredEvent> known = {}) const;
   /// Errors: not the name of an event; there is none.
   Result<StoredEvent> find(std::string_view name) const;
 
@@ -46,7 +56,8 @@ class EventFolder {
 
   /// Deletes an event, whole or not at all.
   Result<> remove(const StoredEvent& event) const;
-  /// Protects a finished event from being deleted for room, or ends that.
+  /// Protects a finished event from being deleted for room, or ends that; the folder of all events
+  /// counts as changed.
   static Result<> set_pinned(const StoredEvent& event, bool is_pinned);
 
  private:

@@ -23,7 +23,8 @@ void visit(Visitor& v, RecordedEvent& event) {
   v.required("layer", event.layer, "Layer of the part; null: not known");
   v.required("pictures", event.pictures, "Number of pictures of all cameras");
   v.required("lost", event.lost, "Pictures that found no room");
-  v.required("bytes", event.bytes, "Size on the disk", "B");
+  v.required("bytes", event.bytes, "Size on the disk; of an event that is being recorded, less",
+             "B");
   v.required("is_pinned", event.is_pinned, "It is not deleted for room");
   v.required("is_finished", event.is_finished, "False: it is being recorded");
   v.required("has_beginning", event.has_beginning,

@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/recordings/recording_routes.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "app/ports/web/api/json_form.h"
+#include "app/ports/web/http/entity_tag.h"
 
 namespace orbwatch::app::web {
 namespace {
 
 constexpr const char* kNone = "no events are recorded: set [recorder.events]";
 
-Response listed(const std::shared_ptr<RecordedEvents>& events) {
-  RecordingsAnswer answer;
-  if (events) {
-    auto found = events->list();
-    if (!found) return error_response(503, found.error().message);
-    answer.events = std::move(*found);
-    std::ranges::reverse(answer.events);
-  } else {
-    answer.missing = "[recorder.events]";
-  }
-  return json_response(json_text(json_of(answer)));
+Response tagged(RecordingsAnswer answer) {
+  Response response = json_response(json_text(json_of(answer)));
+  response.tag = entity_tag(*response.body);
+  return response;
 }
 
 /// A file of an event; 404: it is gone.
@@ -33,7 +26,15 @@ Response sent(const Result<std::filesystem::path>& path, std::string_view type) 
 }  // namespace
 
 void RecordingRoutes::list(const ExchangePtr& exchange) const {
-  changes_.read(exchange, [events = events_] { return listed(events); });
+  changes_.read(exchange, [events = events_, listed = listed_] {
+    if (!events) return tagged({{}, "[recorder.events]"});
+    const auto found = events->list();
+    if (!found) return error_response(503, found.error().message);
+    if (*found != listed->events) {
+      *listed = {*found, tagged({{(*found)->rbegin(), (*found)->rend()}, {}})};
+    }
+    return listed->response;
+  });
 }
 
 void RecordingRoutes::read(const ExchangePtr& exchange,

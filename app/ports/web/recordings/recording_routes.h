@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/record.h"
@@ -23,6 +24,7 @@ class RecordingRoutes {
   RecordingRoutes(std::shared_ptr<RecordedEvents> events, Changes& changes)
       : events_(std::move(events)), changes_(changes) {}
 
+  /// An unchanged list costs nothing: its answer is kept.
   void list(const ExchangePtr& exchange) const;
   void picture(const EventQuery& query, const ExchangePtr& exchange) const;
   void frames(const EventQuery& query, const ExchangePtr& exchange) const;
@@ -32,11 +34,18 @@ class RecordingRoutes {
   Answered<Done> remove(Change<EventQuery>& change) const;
 
  private:
+  struct Listed {
+    std::shared_ptr<const std::vector<RecordedEvent>> events;
+    Response response;
+  };
+
   /// Answers by `handle`, on the thread that waits for the disk; 404 without a recorder of events.
   void read(const ExchangePtr& exchange,
             std::function<Response(RecordedEvents& events)> handle) const;
 
   const std::shared_ptr<RecordedEvents> events_;
+  const std::shared_ptr<Listed> listed_ =
+      std::make_shared<Listed>();  ///< of the thread of changes_
   Changes& changes_;
 };
 

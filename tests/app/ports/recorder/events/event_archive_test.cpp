@@ -45,12 +45,12 @@ class Archive : public testing::Test {
 };
 
 TEST_F(Archive, TellsWhatAnEventIs) {
-  EXPECT_TRUE(archive_.list().value().empty()) << "no folder yet";
+  EXPECT_TRUE(archive_.list().value()->empty()) << "no folder yet";
   const fs::path event = make(kName);
   const auto events = archive_.list();
   ASSERT_TRUE(events) << events.error().message;
-  ASSERT_EQ(events->size(), 1U);
-  const RecordedEvent& one = events->front();
+  ASSERT_EQ((*events)->size(), 1U);
+  const RecordedEvent& one = (*events)->front();
   EXPECT_EQ(one.name, kName);
   EXPECT_EQ(one.trigger, "layer");
   EXPECT_EQ(one.part, "blade 7");
@@ -113,17 +113,17 @@ TEST_F(Archive, RefusesPicturesThatItDoesNotHave) {
 TEST_F(Archive, PinsAndDeletes) {
   make(kName);
   ASSERT_TRUE(archive_.set_pinned(kName, true));
-  EXPECT_TRUE(archive_.list()->front().is_pinned);
+  EXPECT_TRUE(archive_.list().value()->front().is_pinned);
   ASSERT_TRUE(archive_.set_pinned(kName, false));
-  EXPECT_FALSE(archive_.list()->front().is_pinned);
+  EXPECT_FALSE(archive_.list().value()->front().is_pinned);
   ASSERT_TRUE(archive_.remove(kName));
-  EXPECT_TRUE(archive_.list()->empty());
+  EXPECT_TRUE(archive_.list().value()->empty());
   EXPECT_THAT(archive_.remove(kName).error().message, HasSubstr("there is no event"));
 }
 
 TEST_F(Archive, LeavesAnEventThatIsBeingRecorded) {
   const fs::path event = make(kName + ".unfinished");
-  EXPECT_FALSE(archive_.list()->front().is_finished);
+  EXPECT_FALSE(archive_.list().value()->front().is_finished);
   EXPECT_THAT(archive_.remove(kName).error().message, HasSubstr("is being recorded"));
   EXPECT_FALSE(archive_.set_pinned(kName, true));
   EXPECT_FALSE(archive_.recording(kName));
@@ -136,15 +136,15 @@ TEST_F(Archive, RefusesNamesThatLeaveTheFolder) {
     EXPECT_THAT(archive_.recording(name).error().message, HasSubstr("is not the name of an event"));
     EXPECT_FALSE(archive_.remove(name));
   }
-  EXPECT_EQ(archive_.list()->size(), 1U);
+  EXPECT_EQ(archive_.list().value()->size(), 1U);
 }
 
 TEST_F(Archive, ListsAnEventWhoseSummaryIsDamaged) {
   std::ofstream(make(kName) / kEventSummary) << "{";
   const auto events = archive_.list();
   ASSERT_TRUE(events);
-  EXPECT_EQ(events->front().name, kName);
-  EXPECT_THAT(events->front().text, HasSubstr(kEventSummary));
+  EXPECT_EQ((*events)->front().name, kName);
+  EXPECT_THAT((*events)->front().text, HasSubstr(kEventSummary));
   EXPECT_TRUE(archive_.remove(kName));
 }
 

@@ -80,12 +80,30 @@ TEST_F(StoredEvents, PinnedOnesStayAndTheOldestOtherGoesFirst) {
   fs::resize_file(folder_ / "log-20260103T000000Z.mcap", kBig);
   RecorderSettings small = settings();
   small.limit_mib = 256;
-  const RecordingFolder folder(small);
+  RecordingFolder folder(small);
   EXPECT_EQ(folder.make_room({}), 2);
   EXPECT_TRUE(has("20260101T000000.000Z-alarm"));
   EXPECT_FALSE(has("20260102T000000.000Z-alarm"));
   EXPECT_FALSE(fs::exists(folder_ / "log-20260103T000000Z.mcap"));
   EXPECT_TRUE(has("20260104T000000.000Z-alarm"));
+}
+
+TEST_F(StoredEvents, APinThatNobodyNoticedStillCounts) {
+  constexpr std::uintmax_t kBig = std::uintmax_t{200} << 20;
+  make_event("20260101T000000.000Z-alarm", kBig);
+  const fs::path first = folder_ / "events" / "20260101T000000.000Z-alarm";
+  const auto before = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(first, before);
+  RecorderSettings small = settings();
+  small.limit_mib = 256;
+  RecordingFolder folder(small);
+  ASSERT_EQ(folder.make_room({}), 0);
+  std::ofstream(first / kEventPin) << "";
+  fs::last_write_time(first, before);
+  make_event("20260102T000000.000Z-alarm", kBig);
+  EXPECT_EQ(folder.make_room({}), 1);
+  EXPECT_TRUE(has("20260101T000000.000Z-alarm"));
+  EXPECT_FALSE(has("20260102T000000.000Z-alarm"));
 }
 
 TEST_F(StoredEvents, APinIsSetAndRemoved) {

@@ -34,11 +34,13 @@ class Events : public RecordedEvents {
     event.layer = 12;
     event.bytes = recording.size();
     events_.push_back(event);
+    list_ = nullptr;
   }
 
-  Result<std::vector<RecordedEvent>> list() const override {
+  Result<std::shared_ptr<const std::vector<RecordedEvent>>> list() override {
     const std::lock_guard lock(mutex_);
-    return events_;
+    if (!list_) list_ = std::make_shared<std::vector<RecordedEvent>>(events_);
+    return list_;
   }
   Result<std::filesystem::path> recording(std::string_view event) const override {
     return file(event, ".mcap");
@@ -62,12 +64,14 @@ class Events : public RecordedEvents {
     const auto found = std::ranges::find(events_, event, &RecordedEvent::name);
     if (found == events_.end()) return fail("there is no event of this name");
     found->is_pinned = is_pinned;
+    list_ = nullptr;
     return {};
   }
   Result<> remove(std::string_view event) override {
     const std::lock_guard lock(mutex_);
     const auto gone = std::erase_if(events_, [&](const auto& one) { return one.name == event; });
     if (gone == 0) return fail("there is no event of this name");
+    list_ = nullptr;
     return {};
   }
 
@@ -82,6 +86,7 @@ class Events : public RecordedEvents {
   const std::filesystem::path folder_;
   mutable std::mutex mutex_;
   std::vector<RecordedEvent> events_;
+  std::shared_ptr<const std::vector<RecordedEvent>> list_;
 };
 
 class RecordingRoutes : public Served {
@@ -120,6 +125,23 @@ TEST_F(RecordingRoutes, ListTheNewestFirst) {
   EXPECT_EQ(newest["layer"], 12);
   EXPECT_EQ(newest["bytes"], 10);
   EXPECT_EQ(newest["is_pinned"], false);
+}
+
+TEST_F(RecordingRoutes, SendAListAgainOnlyWhenItDiffers) {
+  events->add("e1", "recording");
+  const auto ask = [&](const std::string& tag) {
+    return request(port(), "GET", "/api/v1/recordings", "If-None-Match: " + tag + "\r\n", "");
+  };
+  const std::string tag = ask("none").headers.at("ETag");
+  const Answer again = ask(tag);
+  EXPECT_EQ(again.status, 304);
+  EXPECT_EQ(again.body, "");
+  EXPECT_TRUE(events->set_pinned("e1", true));
+  const Answer pinned = ask(tag);
+  EXPECT_EQ(pinned.status, 200);
+  EXPECT_NE(pinned.headers.at("ETag"), tag);
+  EXPECT_EQ(json::parse(pinned.body)["events"][0]["is_pinned"], true);
+  EXPECT_EQ(ask(pinned.headers.at("ETag")).status, 304);
 }
 
 TEST_F(RecordingRoutes, SendTheFilesOfAnEvent) {

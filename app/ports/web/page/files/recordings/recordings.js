@@ -67,6 +67,7 @@ class Card {
 export class Recordings {
   #cards;
   #events = [];
+  #tag = ""; // of the list in #events
   #again = 0;
 
   // `may(role)`: true if the user may do what the role may.
@@ -108,8 +109,17 @@ export class Recordings {
   async #read() {
     clearTimeout(this.#again);
     if (this.root.hidden) return;
-    const answer = document.hidden ? null : await fetch("api/v1/recordings").catch(() => null);
-    const read = await answer?.json().catch(() => null);
+    const asked = { headers: this.#tag ? { "If-None-Match": this.#tag } : {} };
+    const answer = document.hidden ? null : await fetch("api/v1/recordings", asked).catch(() => null);
+    if (answer && answer.status !== 304) await this.#take(answer);
+    clearTimeout(this.#again);
+    this.#again = setTimeout(() => this.#read(), kAgainMs);
+  }
+
+  // A list that differs, or the reason why there is none.
+  async #take(answer) {
+    const read = await answer.json().catch(() => null);
+    this.#tag = read?.events ? answer.headers.get("ETag") ?? "" : "";
     if (read?.error) setText(this.said, texts.refused(read.error));
     else if (read?.missing) setText(this.said, texts.recordings.missing(read.missing));
     else if (read) {
@@ -117,8 +127,6 @@ export class Recordings {
       this.#show();
     }
     this.record.hidden = this.filters.hidden = Boolean(read?.missing);
-    clearTimeout(this.#again);
-    this.#again = setTimeout(() => this.#read(), kAgainMs);
   }
 
   #isWanted({ trigger, part, layer, triggered, first }) {
