@@ -144,7 +144,7 @@ Result<> RecorderSink::begin() {
   }
   const Utc utc = std::chrono::system_clock::now();
   const std::filesystem::path path = folder_.name_for(utc);
-  const auto removed = folder_.make_room(path);
+  const auto removed = folder_.make_room(path, utc);
   if (!removed) return tl::unexpected(removed.error());
   counters_.removed += static_cast<std::uint64_t>(*removed);
   auto file = recorder::LogFile::create(path, texts_, utc);
@@ -168,9 +168,8 @@ Result<> RecorderSink::flush(hal::TimePoint now) {
   if (!flushed) return fail(flushed.error().message);
   count_flushed();
   if (auto written = pictures_ ? pictures_->flush() : Result<>(); !written) return written;
-  return folder_.make_room(file_->path()).map([this](int removed) {
-    counters_.removed += static_cast<std::uint64_t>(removed);
-  });
+  return folder_.make_room(file_->path(), std::chrono::system_clock::now())
+      .map([this](int removed) { counters_.removed += static_cast<std::uint64_t>(removed); });
 }
 
 void RecorderSink::end() {

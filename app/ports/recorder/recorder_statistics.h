@@ -19,7 +19,8 @@ inline constexpr Quantity kRingSpan{"s", 0.01, 0, 1e6};
   FIELD(std::uint64_t, lost, kCount,                                                           \
         "Frame sets and events that were not recorded: the disk failed or did not keep up")    \
   FIELD(std::uint64_t, bytes, kCount, "Bytes written since start")                             \
-  FIELD(std::uint64_t, removed, kCount, "Recordings deleted to stay within the limits")        \
+  FIELD(std::uint64_t, removed, kCount,                                                        \
+        "Recordings deleted to stay within the limits of size and age")                        \
   FIELD(std::uint64_t, pictures, kCount, "Pictures recorded in events since start")            \
   FIELD(std::uint64_t, recordings, kCount, "Events recorded with pictures since start")        \
   FIELD(std::uint64_t, recordings_lost, kCount,                                                \

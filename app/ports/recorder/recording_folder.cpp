@@ -10,6 +10,7 @@
 
 #include "app/log.h"
 #include "app/ports/recorder/disk_space.h"
+#include "app/ports/recorder/events/event_name.h"
 #include "app/ports/recorder/folder_change.h"
 #include "hal/calendar_time.h"
 #include "hal/mcap/completion.h"
@@ -145,8 +146,34 @@ Result<bool> RecordingFolder::remove(const StoredEvent& listed) const {
   return events_.remove(*event).map([] { return true; });
 }
 
-Result<int> RecordingFolder::make_room(const fs::path& current) {
-  if (auto updated = update(current); !updated) return tl::unexpected(updated.error());
+/// Deletes events whose trigger is too long ago. Before 1970, as without a battery for the clock,
+/// none is.
+Result<int> RecordingFolder::remove_old(std::chrono::system_clock::time_point utc) const {
+  constexpr int kMostAtOnce = 10;
+  const std::chrono::days limit{settings_.events ? settings_.events->keep_days : 0};
+  if (limit.count() == 0 || utc - limit <= Utc{}) return 0;
+  const std::string oldest = event_name(utc - limit, TriggerKind::Alarm);
+  int removed = 0;
+  for (const StoredEvent& event : index_.events()) {
+    if (event.name >= oldest || removed == kMostAtOnce) break;
+    if (event.is_pinned || !event.is_finished) continue;
+    const auto done = remove(event);
+    if (!done) return tl::unexpected(done.error());
+    removed += *done ? 1 : 0;
+  }
+  return removed;
+}
+
+Result<int> RecordingFolder::make_room(const fs::path& current,
+                                       std::chrono::system_clock::time_point utc) {
+  const auto old = update(current).and_then([&] { return remove_old(utc); });
+  if (!old) return old;
+  return update(current).and_then([this] { return remove_for_room(); }).map([&](int removed) {
+    return *old + removed;
+  });
+}
+
+Result<int> RecordingFolder::remove_for_room() const {
   const auto limit = static_cast<std::uint64_t>(settings_.limit_mib) * kMebibyte;
   const auto reserve = static_cast<std::uint64_t>(settings_.reserve_mib) * kMebibyte;
   std::uint64_t left = bytes();

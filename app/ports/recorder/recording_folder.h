@@ -42,11 +42,13 @@ class RecordingFolder {
   /// if there is one already, as after the clock was set back.
   std::filesystem::path name_for(std::chrono::system_clock::time_point utc) const;
 
-  /// Deletes the oldest logs and events until the limits hold, except the log `current`, events
-  /// that are pinned, and those that are being recorded; returns their number.
+  /// Deletes events above the limit of age, a few at a time, so that recording does not wait; then
+  /// the oldest logs and events until the limits of size hold. The log `current`, events that are
+  /// pinned and those that are being recorded stay. Returns the number of what is deleted.
   /// Without a change in the folder and with room this costs the same however many there are.
   /// Errors: the folder; the disk has less than the reserve although there is none to delete.
-  Result<int> make_room(const std::filesystem::path& current);
+  Result<int> make_room(const std::filesystem::path& current,
+                        std::chrono::system_clock::time_point utc);
 
  private:
   /// A log or an event that may be deleted.
@@ -56,6 +58,8 @@ class RecordingFolder {
     std::function<Result<bool>()> remove;  ///< false: it must stay now
   };
   Result<> update(const std::filesystem::path& current);
+  Result<int> remove_old(std::chrono::system_clock::time_point utc) const;
+  Result<int> remove_for_room() const;
   std::uint64_t bytes() const;
   std::vector<Deletable> deletable() const;
   Result<bool> remove(const StoredEvent& listed) const;

@@ -22,6 +22,7 @@ struct EventSettings {
   std::vector<std::string> cameras;  ///< names; none: all
   int quality = 90;                  ///< of JPEG
   bool lossless = false;
+  int keep_days = 0;  ///< 0: as long as there is room
 };
 
 template <class Visitor>
@@ -46,6 +47,10 @@ void visit(Visitor& v, EventSettings& events) {
   v.optional("quality", events.quality, Range::between(1, 100),
              "JPEG quality of 8-bit pictures; 16-bit ones are always lossless");
   v.optional("lossless", events.lossless, "Record 8-bit pictures lossless, too, instead of JPEG");
+  v.optional(
+      "keep_days", events.keep_days, Range::between(0, 36500),
+      "Age above which an event that is not pinned is deleted, days; 0: it is kept as long as "
+      "there is room");
 }
 
 }  // namespace orbwatch::app::recorder

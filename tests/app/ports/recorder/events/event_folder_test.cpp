@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using tests::RecordedMachine;
 
+const Utc kNow = std::chrono::sys_days(std::chrono::year(2026) / 1 / 10);
+
 class StoredEvents : public testing::Test {
  protected:
   RecorderSettings settings() const {
@@ -81,7 +83,7 @@ TEST_F(StoredEvents, PinnedOnesStayAndTheOldestOtherGoesFirst) {
   RecorderSettings small = settings();
   small.limit_mib = 256;
   RecordingFolder folder(small);
-  EXPECT_EQ(folder.make_room({}), 2);
+  EXPECT_EQ(folder.make_room({}, kNow), 2);
   EXPECT_TRUE(has("20260101T000000.000Z-alarm"));
   EXPECT_FALSE(has("20260102T000000.000Z-alarm"));
   EXPECT_FALSE(fs::exists(folder_ / "log-20260103T000000Z.mcap"));
@@ -97,13 +99,51 @@ TEST_F(StoredEvents, APinThatNobodyNoticedStillCounts) {
   RecorderSettings small = settings();
   small.limit_mib = 256;
   RecordingFolder folder(small);
-  ASSERT_EQ(folder.make_room({}), 0);
+  ASSERT_EQ(folder.make_room({}, kNow), 0);
   std::ofstream(first / kEventPin) << "";
   fs::last_write_time(first, before);
   make_event("20260102T000000.000Z-alarm", kBig);
-  EXPECT_EQ(folder.make_room({}), 1);
+  EXPECT_EQ(folder.make_room({}, kNow), 1);
   EXPECT_TRUE(has("20260101T000000.000Z-alarm"));
   EXPECT_FALSE(has("20260102T000000.000Z-alarm"));
+}
+
+TEST_F(StoredEvents, OneAboveTheAgeGoesUnlessItIsPinned) {
+  make_event("20260107T235959.999Z-alarm", 10);
+  make_event("20260107T235959.999Z-layer", 10, true);
+  make_event("20260107T235959.999Z-command.unfinished", 10);
+  make_event("20260108T000000.000Z-alarm", 10);
+  make_event("20260111T000000.000Z-alarm", 10);  // before the clock was set back
+  RecorderSettings aged = settings();
+  RecordingFolder endless(aged);
+  EXPECT_EQ(endless.make_room({}, kNow), 0);
+  aged.events->keep_days = 2;
+  RecordingFolder folder(aged);
+  EXPECT_EQ(folder.make_room({}, kNow - std::chrono::days(1)), 0) << "the clock was set back";
+  EXPECT_EQ(folder.make_room({}, Utc() + std::chrono::days(1)), 0) << "and has lost its battery";
+  EXPECT_EQ(folder.make_room({}, kNow), 1);
+  EXPECT_FALSE(has("20260107T235959.999Z-alarm"));
+  EXPECT_TRUE(has("20260107T235959.999Z-layer"));
+  EXPECT_TRUE(has("20260107T235959.999Z-command.unfinished"));
+  EXPECT_TRUE(has("20260108T000000.000Z-alarm"));
+  EXPECT_EQ(folder.make_room({}, kNow + milliseconds(1)), 1);
+  EXPECT_FALSE(has("20260108T000000.000Z-alarm"));
+  EXPECT_TRUE(has("20260111T000000.000Z-alarm"));
+}
+
+TEST_F(StoredEvents, ManyAboveTheAgeGoAFewAtATime) {
+  for (int n = 0; n < 25; ++n) {
+    make_event("20260101T0000" + std::to_string(10 + n) + ".000Z-alarm", 10);
+  }
+  RecorderSettings aged = settings();
+  aged.events->keep_days = 1;
+  RecordingFolder folder(aged);
+  int removed = 0;
+  for (const int expected : {10, 10, 5, 0}) {
+    EXPECT_EQ(folder.make_room({}, kNow), expected);
+    removed += expected;
+    EXPECT_EQ(EventFolder(folder_.path()).list()->size(), static_cast<std::size_t>(25 - removed));
+  }
 }
 
 TEST_F(StoredEvents, APinIsSetAndRemoved) {

@@ -102,14 +102,14 @@ class ManyEvents : public testing::Test {
 TEST_F(ManyEvents, CostTheRecorderNothingUntilOneIsAdded) {
   RecordingFolder folder({.folder = folder_.path()});
   FolderOpens events_opened(events()), opened(folder_.path());
-  ASSERT_EQ(folder.make_room({}), 0);
+  ASSERT_EQ(folder.make_room({}, {}), 0);
   ASSERT_GE(events_opened.count(), kCount) << "each is read once";
   opened.count();
-  for (int second = 0; second < 100; ++second) ASSERT_EQ(folder.make_room({}), 0);
+  for (int second = 0; second < 100; ++second) ASSERT_EQ(folder.make_room({}, {}), 0);
   EXPECT_EQ(events_opened.count() + opened.count(), 0);
 
   add(kCount, "by another program");
-  ASSERT_EQ(folder.make_room({}), 0);
+  ASSERT_EQ(folder.make_room({}, {}), 0);
   const int opens = events_opened.count();
   EXPECT_GE(opens, 2) << "the folder and the event that is new";
   EXPECT_LE(opens, 4);
