@@ -2,7 +2,11 @@
 #include "app/ports/recorder/events/event_summary.h"
 
 #include <cmath>
+#include <concepts>
+#include <exception>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "hal/atomic_file.h"
 #include "hal/regular_file.h"
@@ -26,10 +30,23 @@ Json object_of(const std::vector<std::pair<std::string, Value>>& entries) {
   return object;
 }
 
+void read(const Json& value, std::string& text) { text = value.get<std::string>(); }
+
+/// The library converts any number, also one that the type does not have.
+template <std::unsigned_integral Number>
+void read(const Json& value, Number& number) {
+  constexpr std::uint64_t kMost = std::numeric_limits<Number>::max();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kMost) {
+    throw std::range_error("a number is not a whole one from 0 to " + std::to_string(kMost));
+  }
+  number = value.get<Number>();
+}
+
 template <class Value>
 void read_object(const Json& object, std::vector<std::pair<std::string, Value>>& entries) {
-  for (const auto& [name, value] : object.items())
-    entries.emplace_back(name, value.template get<Value>());
+  for (const auto& [name, value] : object.items()) {
+    read(value, entries.emplace_back(name, Value()).second);
+  }
 }
 
 void read_known(const Json& value, std::string& text) {
@@ -43,12 +60,12 @@ EventSummary summary_of(const Json& json) {
   read_known(json.at("first"), summary.first);
   read_known(json.at("triggered"), summary.triggered);
   read_known(json.at("last"), summary.last);
-  summary.frame_set = json.at("frame_set").get<std::uint64_t>();
-  summary.recipe = json.at("recipe").get<std::uint16_t>();
+  read(json.at("frame_set"), summary.frame_set);
+  read(json.at("recipe"), summary.recipe);
   read_known(json.at("part"), summary.part);
   if (!json.at("layer").is_null()) summary.layer = json.at("layer").get<double>();
   read_object(json.at("pictures"), summary.pictures);
-  summary.lost = json.at("lost").get<std::uint64_t>();
+  read(json.at("lost"), summary.lost);
   summary.has_beginning = json.at("has_beginning").get<bool>();
   summary.is_interrupted = json.at("is_interrupted").get<bool>();
   read_object(json.at("versions"), summary.versions);
@@ -79,15 +96,22 @@ Result<> write_summary(const std::filesystem::path& folder, const EventSummary& 
   return hal::write_file(folder / kEventSummary, summary_text(summary));
 }
 
+Result<EventSummary> parse_summary(std::string_view text) {
+  try {
+    return summary_of(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    return fail("not JSON at byte " + std::to_string(error.byte));
+  } catch (const std::exception& error) {
+    return fail(std::string("not a summary of an event: ") + error.what());
+  }
+}
+
 Result<EventSummary> read_summary(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kEventSummary;
   const auto text = hal::read_regular_file(file, kLongestSummary);
   if (!text) return tl::unexpected(text.error());
-  try {
-    return summary_of(Json::parse(*text));
-  } catch (const Json::exception& error) {
-    return fail(file.string() + " is not a summary of an event: " + error.what());
-  }
+  return parse_summary(*text).map_error(
+      [&](const Error& error) { return Error{file.string() + ": " + error.message}; });
 }
 
 }  // namespace orbwatch::app::recorder

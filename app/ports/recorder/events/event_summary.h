@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,9 @@ std::string summary_text(const EventSummary& summary);
 
 /// Errors: of the disk.
 Result<> write_summary(const std::filesystem::path& folder, const EventSummary& summary);
+
+/// The summary in a text of any origin. Error: it is not one; the text is not quoted. Reentrant.
+Result<EventSummary> parse_summary(std::string_view text);
 
 /// Errors: missing, unreadable, or not a summary.
 Result<EventSummary> read_summary(const std::filesystem::path& folder);
