@@ -16,6 +16,7 @@
 #include "hal/jpeg/jpeg_decoder.h"
 #include "hal/mcap/crc32.h"
 #include "hal/recording/image.h"
+#include "tests/app/ports/recorder/events/painted_event.h"
 #include "tests/app/ports/recorder/events/read_event.h"
 #include "tests/app/ports/recorder/events/recorded_machine.h"
 #include "tests/support/reference_data.h"
@@ -27,13 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
+using tests::kColour, tests::kStates, tests::kThermal;
 using tests::ReadMessage;
 using tests::RecordedMachine;
 using Numbers = std::vector<std::uint64_t>;
-
-constexpr const char* kThermal = "/orbwatch/thermal/image_raw";
-constexpr const char* kColour = "/orbwatch/colour/image_raw/compressed";
-constexpr const char* kStates = "/orbwatch/process_state";
 
 class Events : public testing::Test {
  protected:
@@ -47,12 +45,6 @@ class Events : public testing::Test {
     return {.folder = folder_ / "recordings", .events = events};
   }
 
-  static Numbers sequences_of(const std::vector<ReadMessage>& messages) {
-    Numbers numbers;
-    for (const ReadMessage& message : messages) numbers.push_back(message.sequence);
-    return numbers;
-  }
-
   /// Frame sets from `first` to `last` that have a new frame of the colour camera, or of all.
   static Numbers sets(std::uint64_t first, std::uint64_t last, bool is_colour = false) {
     Numbers numbers;
@@ -60,48 +52,6 @@ class Events : public testing::Test {
       if (!is_colour || n % 3 != 0) numbers.push_back(n);
     }
     return numbers;
-  }
-
-  /// First and last frame set within a window around a set.
-  static std::uint64_t first_of(std::uint64_t set, milliseconds before) {
-    std::uint64_t first = set;
-    while (first > 1 && RecordedMachine::at(first - 1) >= RecordedMachine::at(set) - before)
-      --first;
-    return first;
-  }
-  static std::uint64_t last_of(std::uint64_t set, milliseconds after) {
-    std::uint64_t last = set;
-    while (RecordedMachine::at(last + 1) <= RecordedMachine::at(set) + after) ++last;
-    return last;
-  }
-
-  /// Checks pixels, stamps and place of each thermal picture.
-  static void expect_painted(std::map<std::string, std::vector<ReadMessage>>& topics) {
-    const auto& pictures = topics[kThermal];
-    const auto& places = topics["/orbwatch/thermal/camera_info"];
-    ASSERT_EQ(places.size(), pictures.size());
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      hal::recording::Image image;
-      hal::recording::CameraInfo info;
-      ASSERT_TRUE(hal::mcap::decode_cdr(pictures[i].bytes, image));
-      ASSERT_TRUE(hal::mcap::decode_cdr(places[i].bytes, info));
-      EXPECT_EQ(image.encoding, "mono16");
-      EXPECT_EQ(image.header, info.header);
-      EXPECT_EQ(hal::recording::stamp_of(image.header), pictures[i].log_time);
-      const auto place = hal::recording::place_of(info);
-      ASSERT_TRUE(place);
-      ASSERT_EQ(place->region, RecordedMachine::kBall);
-      EXPECT_EQ(place->width, RecordedMachine::kWidth);
-      const auto picture = hal::recording::picture_of(image);
-      ASSERT_TRUE(picture) << picture.error().message;
-      const auto samples = picture->samples<std::uint16_t>();
-      for (int y = 0; y < samples.height; ++y) {
-        for (int x = 0; x < samples.width; ++x) {
-          ASSERT_EQ(samples.row(y)[x], tests::painted(pictures[i].sequence, 0, x + place->region.x,
-                                                      y + place->region.y));
-        }
-      }
-    }
   }
 
   const orbwatch::tests::TemporaryFolder folder_;
@@ -150,30 +100,30 @@ TEST_F(Events, EachTriggerHasItsWholeTimeInOneEventToTheFrame) {
     const auto summary = read_summary(event.folder);
     ASSERT_TRUE(summary) << summary.error().message;
     auto topics = tests::read_recording(event.folder / kEventFile);
-    const Numbers recorded = sequences_of(topics[kThermal]);
+    const Numbers recorded = tests::sequences_of(topics[kThermal]);
     ASSERT_FALSE(recorded.empty());
     const std::uint64_t first = recorded.front(), last = recorded.back();
     EXPECT_EQ(recorded, sets(first, last)) << "none is missing, none is doubled";
-    EXPECT_EQ(sequences_of(topics[kColour]), sets(first, last, true));
+    EXPECT_EQ(tests::sequences_of(topics[kColour]), sets(first, last, true));
     EXPECT_EQ(tests::frame_sets_of(topics[kStates]), recorded);
-    EXPECT_EQ(first, first_of(summary->frame_set, site.events->before));
+    EXPECT_EQ(first, RecordedMachine::first_of(summary->frame_set, site.events->before));
     EXPECT_TRUE(std::ranges::any_of(triggers, [&](std::uint64_t trigger) {
-      return trigger >= first && last == last_of(trigger, site.events->after);
+      return trigger >= first && last == RecordedMachine::last_of(trigger, site.events->after);
     })) << last;
     EXPECT_LE(RecordedMachine::at(last) - RecordedMachine::at(first), site.events->longest);
     EXPECT_TRUE(summary->has_beginning);
     EXPECT_FALSE(summary->is_interrupted);
     EXPECT_EQ(summary->pictures.front(), std::pair(std::string("thermal"), recorded.size()));
     EXPECT_TRUE(fs::exists(event.folder / kEventPicture));
-    expect_painted(topics);
+    tests::expect_painted(topics);
     if (!spans.empty() && spans.back().second >= first) ++overlaps;
     spans.emplace_back(first, last);
   }
   EXPECT_GT(overlaps, 10U);
   for (const std::uint64_t trigger : triggers) {
     EXPECT_TRUE(std::ranges::any_of(spans, [&](const auto& span) {
-      return span.first <= first_of(trigger, site.events->before) &&
-             span.second >= last_of(trigger, site.events->after);
+      return span.first <= RecordedMachine::first_of(trigger, site.events->before) &&
+             span.second >= RecordedMachine::last_of(trigger, site.events->after);
     })) << trigger;
   }
 }
@@ -215,7 +165,8 @@ TEST_F(Events, OthersReadEveryPixelAndStamp) {
   for (std::string line; std::getline(output, line);) {
     if (line.find("sensor_msgs/msg/Image") != line.npos) read.insert(line);
   }
-  EXPECT_EQ(read.size(), last_of(10, milliseconds(40)) - first_of(10, milliseconds(50)) + 1);
+  EXPECT_EQ(read.size(), RecordedMachine::last_of(10, milliseconds(40)) -
+                             RecordedMachine::first_of(10, milliseconds(50)) + 1);
   EXPECT_EQ(read, expected);
 }
 
@@ -237,7 +188,7 @@ TEST_F(Events, AStormOfAlarmsMakesFewEventsAndIsCounted) {
   std::set<std::uint64_t> recorded;
   for (const StoredEvent& event : machine.events()) {
     auto topics = tests::read_recording(event.folder / kEventFile);
-    for (const std::uint64_t n : sequences_of(topics[kThermal])) recorded.insert(n);
+    for (const std::uint64_t n : tests::sequences_of(topics[kThermal])) recorded.insert(n);
   }
   EXPECT_EQ(Numbers(recorded.begin(), recorded.end()), sets(1, *recorded.rbegin()));
 }
@@ -256,7 +207,7 @@ TEST_F(Events, PicturesThatFindNoRoomAreLostAndCountedAndNobodyWaits) {
   EXPECT_GT(machine.statistics().recordings_lost, 0U) << "more events at once than windows";
   for (const StoredEvent& event : machine.events()) {
     auto topics = tests::read_recording(event.folder / kEventFile);
-    const Numbers recorded = sequences_of(topics[kThermal]);
+    const Numbers recorded = tests::sequences_of(topics[kThermal]);
     EXPECT_EQ(recorded, sets(recorded.front(), recorded.back()));
   }
 }
@@ -316,9 +267,9 @@ TEST_F(Events, TheSummaryHasTheCircumstancesOfTheTrigger) {
     }
     return std::string("not recorded");
   };
-  EXPECT_EQ(summary->first, utc_of(first_of(10, milliseconds(50))));
+  EXPECT_EQ(summary->first, utc_of(RecordedMachine::first_of(10, milliseconds(50))));
   EXPECT_EQ(summary->triggered, utc_of(10));
-  EXPECT_EQ(summary->last, utc_of(last_of(10, milliseconds(40))));
+  EXPECT_EQ(summary->last, utc_of(RecordedMachine::last_of(10, milliseconds(40))));
   EXPECT_EQ(summary->versions.front(), std::pair(std::string("orbwatch"), std::string("0.1.0")));
 }
 
@@ -370,7 +321,8 @@ TEST_F(Events, TheEndOfTheRecorderKeepsWhatIsThere) {
   ASSERT_TRUE(summary);
   EXPECT_TRUE(summary->is_interrupted);
   auto topics = tests::read_recording(events.front().folder / kEventFile);
-  EXPECT_EQ(sequences_of(topics[kThermal]), sets(first_of(9, milliseconds(50)), 10));
+  EXPECT_EQ(tests::sequences_of(topics[kThermal]),
+            sets(RecordedMachine::first_of(9, milliseconds(50)), 10));
 }
 
 }  // namespace

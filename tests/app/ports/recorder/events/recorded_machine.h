@@ -37,6 +37,18 @@ class RecordedMachine {
            std::chrono::microseconds(number * 37 % 3000);
   }
 
+  /// First and last frame set within a window around a set.
+  static std::uint64_t first_of(std::uint64_t set, std::chrono::milliseconds before) {
+    std::uint64_t first = set;
+    while (first > 1 && at(first - 1) >= at(set) - before) --first;
+    return first;
+  }
+  static std::uint64_t last_of(std::uint64_t set, std::chrono::milliseconds after) {
+    std::uint64_t last = set;
+    while (at(last + 1) <= at(set) + after) ++last;
+    return last;
+  }
+
   /// The pipeline's part of frame set `number`: every third has no new colour frame.
   void pass(std::uint64_t number, bool is_alarm = false) {
     hal::FrameSet set;
