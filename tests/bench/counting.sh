@@ -27,6 +27,13 @@ find_qemu() {
         --library-path "$libraries" "$root/usr/bin/qemu-aarch64")
 }
 
+# The same for programs of this computer.
+find_native_qemu() {
+  find_qemu
+  qemu=("${qemu[@]/%qemu-aarch64/qemu-$(uname -m)}")
+  sysroot=/ library_folder=/usr/lib/$(uname -m)-linux-gnu
+}
+
 # number_from PLUGIN PROGRAM ARGUMENT...: prints the plugin's numbers for the program, and in the same
 # line the program's output.
 number_from() {
