@@ -5,6 +5,7 @@ Folders: app/ports/web/page/files/recordings app/ports/web/recordings app/ports/
 """
 
 import json
+import shutil
 import unittest
 import urllib.request
 
@@ -118,6 +119,17 @@ class Recordings(PageCase):
         self.press("Remove")
         self.browser.switch_to.alert.accept()
         eventually("it is deleted", lambda: self.events() == [])
+
+    def test_an_event_without_a_summary_is_listed_beside_others(self):
+        events = self.appliance.folder / "recordings" / "events"
+        self.addCleanup(lambda: eventually("none is left", lambda: self.events() == []))
+        self.addCleanup(shutil.rmtree, events)
+        (events / "20260101T000000.000Z-alarm").mkdir(parents=True)
+        self.browser.get(f"{self.appliance.address}#/recordings")
+        eventually("it is listed", lambda: len(self.shown()) == 1)
+        self.record()
+        eventually("the other one is listed, too", lambda: len(self.shown()) == 2)
+        self.assertEqual(self.shown()[0], "By command")
 
     def test_an_event_is_recorded_shown_saved_pinned_and_deleted(self):
         self.browser.get(f"{self.appliance.address}#/recordings")

@@ -40,7 +40,7 @@ class Card {
   }
 
   show(event) {
-    const said = texts.recordings, moment = event.triggered || event.first;
+    const said = texts.recordings, moment = Date.parse(event.triggered || event.first);  // NaN without a summary
     this.#event = event;
     this.isPinned = event.is_pinned;
     setText(this.cause, event.trigger === "alarm" ? event.cause : said.kinds[event.trigger] ?? event.cause);
