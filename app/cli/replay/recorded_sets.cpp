@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal/mcap/cdr.h"
 #include "hal/recording/camera_channels.h"
 
 namespace orbwatch::app::cli {
@@ -25,15 +24,15 @@ bool has_camera(const hal::mcap::Summary& summary, const std::string& camera) {
 Result<RecordedSets> RecordedSets::open(const std::filesystem::path& file,
                                         const std::vector<std::string>& cameras,
                                         const std::vector<hal::SyncPolicy>& policies) {
-  auto reader = hal::mcap::Reader::open(file);
-  if (!reader) return fail(reader.error().message);
-  const auto clock = recording::RecordedClock::of(*reader);
+  auto states = recorder::RecordedStates::open(file);
+  if (!states) return tl::unexpected(states.error());
+  const auto clock = recording::RecordedClock::of(states->reader());
   if (!clock) return fail(file.string() + ": " + clock.error().message);
-  RecordedSets sets(file, std::move(*reader), *clock);
+  RecordedSets sets(std::move(*states), *clock);
   for (std::size_t k = 0; k < cameras.size(); ++k) {
     Camera& camera = sets.cameras_.emplace_back();
     camera.policy = policies[k];
-    if (!has_camera(sets.reader_.summary(), cameras[k])) continue;
+    if (!has_camera(sets.states_.reader().summary(), cameras[k])) continue;
     auto opened = recording::CameraRecording::open(file, cameras[k]);
     if (!opened) return tl::unexpected(opened.error());
     const hal::StreamFormat& format = opened->index().format;
@@ -53,28 +52,14 @@ std::vector<hal::StreamFormat> RecordedSets::formats() const {
 
 /// The next state, without frames.
 Result<std::optional<RecordedSet>> RecordedSets::next_state() {
-  while (true) {
-    const auto message = reader_.next();
-    if (!message) {
-      if (next_chunk_ == reader_.summary().chunks.size()) return std::nullopt;
-      if (const auto loaded = reader_.load_chunk(next_chunk_++); !loaded) {
-        return fail(loaded.error().message);
-      }
-      continue;
-    }
-    const auto& channel = reader_.summary().channels.at(message->head.channel_id);
-    if (recording::type_of(reader_.summary(), channel) != recording::SetNumbers::kType) continue;
-    RecordedSet set;
-    set.utc = message->head.log_time;
-    set.computed = clock_.to_moment(std::max(set.utc, message->head.publish_time));
-    const std::string place =
-        file_.string() + ": " + channel.topic + ", state " + std::to_string(states_) + ": ";
-    if (!hal::mcap::decode_cdr(message->data, set.state)) return fail(place + "damaged");
-    if (set.utc < newest_) return fail(place + "its stamp is before that of the state before");
-    newest_ = set.utc;
-    ++states_;
-    return set;
-  }
+  auto recorded = states_.next();
+  if (!recorded) return tl::unexpected(recorded.error());
+  if (!*recorded) return std::nullopt;
+  RecordedSet set;
+  set.utc = (*recorded)->utc;
+  set.computed = clock_.to_moment((*recorded)->computed);
+  set.state = std::move((*recorded)->state);
+  return set;
 }
 
 Result<std::optional<RecordedSet>> RecordedSets::next() {

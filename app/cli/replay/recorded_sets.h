@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/ports/recorder/messages.h"
+#include "app/ports/recorder/recorded_states.h"
 #include "hal/frame/frame_pool.h"
-#include "hal/mcap/reader.h"
 #include "hal/recording/camera_recording.h"
 #include "hal/recording/recorded_clock.h"
 #include "hal/sync/frame_matcher.h"
@@ -46,7 +45,7 @@ class RecordedSets {
   /// States without a picture so far.
   std::size_t without_pictures() const { return without_pictures_; }
   /// States so far.
-  std::size_t states() const { return states_; }
+  std::size_t states() const { return states_.count(); }
 
  private:
   struct Camera {
@@ -57,21 +56,17 @@ class RecordedSets {
     hal::Frame newest;
   };
 
-  RecordedSets(std::filesystem::path file, hal::mcap::Reader reader,
-               hal::recording::RecordedClock clock)
-      : file_(std::move(file)), reader_(std::move(reader)), clock_(clock) {}
+  RecordedSets(recorder::RecordedStates states, hal::recording::RecordedClock clock)
+      : states_(std::move(states)), clock_(clock) {}
 
   Result<std::optional<RecordedSet>> next_state();
   Result<bool> add_frames(RecordedSet& set);
   Result<bool> add_frame(std::size_t camera, RecordedSet& set);
 
-  std::filesystem::path file_;
-  hal::mcap::Reader reader_;
+  recorder::RecordedStates states_;
   hal::recording::RecordedClock clock_;
   std::vector<Camera> cameras_;
-  std::size_t next_chunk_ = 0;
-  std::uint64_t newest_ = 0;  ///< stamp
-  std::size_t states_ = 0, without_pictures_ = 0;
+  std::size_t without_pictures_ = 0;
 };
 
 }  // namespace orbwatch::app::cli

@@ -2,7 +2,6 @@
 #include "app/cli/replay/replay_run.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <ostream>
@@ -14,11 +13,14 @@
 #include "app/cli/replay/recorded_sets.h"
 #include "app/cli/replay/recorded_site.h"
 #include "app/cli/replay/set_meter.h"
+#include "app/ports/recorder/export/csv_text.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::cli {
 namespace {
 
+using recorder::csv_field;
+using recorder::csv_number;
 using recorder::ProcessState;
 
 constexpr std::string_view kMeasurementColumns =
@@ -26,28 +28,13 @@ constexpr std::string_view kMeasurementColumns =
                            kDifferenceColumns =
                                "utc_ns,frame_set,component,name,figure,recorded,computed\n";
 
-/// A field of CSV (RFC 4180).
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char c : text) field.append(c == '"' ? 2 : 1, c);
-  return field + "\"";
-}
-
-/// The shortest text that is this number again; empty: not valid.
-std::string number(double value) {
-  if (std::isnan(value)) return {};
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 void write_measurements(std::ostream& csv, std::uint64_t utc, const ProcessState& state) {
   for (const recorder::ComponentFigures& component : state.components) {
     if (component.kind != "region" && component.kind != "alarm") continue;
     for (const recorder::Figure& figure : component.figures) {
       csv << utc << ',' << state.frame_set << ',' << component.kind << ','
-          << csv_field(component.name) << ',' << figure.name << ',' << number(figure.value) << ','
-          << figure.unit << '\n';
+          << csv_field(component.name) << ',' << figure.name << ',' << csv_number(figure.value)
+          << ',' << figure.unit << '\n';
     }
   }
 }
@@ -55,7 +42,7 @@ void write_measurements(std::ostream& csv, std::uint64_t utc, const ProcessState
 void write_difference(std::ostream& csv, const Difference& difference) {
   csv << difference.utc << ',' << difference.frame_set << ',' << csv_field(difference.kind) << ','
       << csv_field(difference.name) << ',' << csv_field(difference.figure) << ','
-      << number(difference.recorded) << ',' << number(difference.computed) << '\n';
+      << csv_number(difference.recorded) << ',' << csv_number(difference.computed) << '\n';
 }
 
 /// Value of a figure of the system when the set was recorded.

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "app/log.h"
-#include "app/model/status/utc_text.h"
 #include "app/ports/recorder/disk_space.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "app/ports/recorder/events/event_summary.h"
 #include "app/ports/recorder/folder_change.h"
+#include "app/ports/recorder/recorded_utc.h"
 #include "hal/atomic_file.h"
 #include "hal/mcap/completion.h"
 #include "hal/mcap/reader.h"
@@ -67,10 +67,6 @@ const StoredEvent* unchanged(std::span<const StoredEvent> known, const fs::path&
   return is_same ? &*found : nullptr;
 }
 
-Utc utc_of(std::uint64_t nanoseconds) {
-  return Utc(std::chrono::duration_cast<Utc::duration>(std::chrono::nanoseconds(nanoseconds)));
-}
-
 /// Completes the summary that was written at the start by what the recording has.
 Result<> update_summary(const fs::path& folder) {
   const auto reader = hal::mcap::Reader::open(folder / kEventFile);
@@ -79,8 +75,8 @@ Result<> update_summary(const fs::path& folder) {
   if (!summary) return tl::unexpected(summary.error());
   const hal::mcap::Summary& recorded = reader->summary();
   const hal::mcap::Statistics statistics = recorded.statistics();
-  summary->first = utc_text(utc_of(statistics.message_start_time)).value_or("");
-  summary->last = utc_text(utc_of(statistics.message_end_time)).value_or("");
+  summary->first = utc_text_at(statistics.message_start_time);
+  summary->last = utc_text_at(statistics.message_end_time);
   for (const auto& [id, count] : recorded.message_counts) {
     const std::string& topic = recorded.channels.at(id).topic;
     if (topic.ends_with("/camera_info")) continue;

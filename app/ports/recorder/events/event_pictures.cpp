@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/recorder/events/event_pictures.h"
 
-#include <chrono>
 #include <utility>
 
-#include "app/model/status/utc_text.h"
 #include "app/ports/recorder/events/trigger_picture.h"
+#include "app/ports/recorder/recorded_utc.h"
 #include "hal/mcap/reader.h"
 #include "hal/recording/camera_channels.h"
 #include "hal/recording/picture_region.h"
@@ -14,13 +13,6 @@ namespace orbwatch::app::recorder {
 namespace {
 
 constexpr int kQuality = 90;
-
-std::string text_of(std::uint64_t nanoseconds) {
-  using Utc = std::chrono::system_clock;
-  const auto time =
-      std::chrono::duration_cast<Utc::duration>(std::chrono::nanoseconds(nanoseconds));
-  return utc_text(Utc::time_point(time)).value_or("");
-}
 
 }  // namespace
 
@@ -35,7 +27,7 @@ Result<std::vector<RecordedFrames>> EventPictures::frames(
     RecordedFrames& frames = all.emplace_back();
     frames.camera = camera;
     for (const auto& exposure : pictures->index().exposures) {
-      frames.times.push_back(text_of(exposure.set_time));
+      frames.times.push_back(utc_text_at(exposure.set_time));
     }
   }
   return all;
