@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "hal/recording/recorded_part.h"
-
 namespace orbwatch::hal::recording {
 
 Result<CameraRecording> CameraRecording::open(const std::filesystem::path& file,
@@ -32,25 +30,33 @@ Result<mcap::Message> CameraRecording::load(const RecordedExposure& exposure) {
   return fail("the chunk has changed since it was read first");
 }
 
-Result<FrameStatus> CameraRecording::read(std::size_t exposure, const MutablePicture& target) {
+Error CameraRecording::named(std::size_t exposure, const Error& error) const {
+  return {file_.string() + ": " + index_.channels.pictures.topic + ", picture " +
+          std::to_string(exposure) + ": " + error.message};
+}
+
+Result<RecordedPart> CameraRecording::part(std::size_t exposure) {
   const RecordedExposure& place = index_.exposures.at(exposure);
-  const auto named = [&](const Error& error) {
-    return Error{file_.string() + ": " + index_.channels.pictures.topic + ", picture " +
-                 std::to_string(exposure) + ": " + error.message};
-  };
   const StreamFormat& whole = index_.format;
   return load(place)
       .and_then([&](const mcap::Message& message) {
         return part_in(message, index_.channels, whole.format);
       })
-      .and_then([&](const RecordedPart& part) -> Result<FrameStatus> {
+      .and_then([&](RecordedPart part) -> Result<RecordedPart> {
         const PicturePlace in_whole{whole.width, whole.height, place.region};
-        const auto fits = check_fit(part.format, part.width, part.height, in_whole, target.format);
+        const auto fits = check_fit(part.format, part.width, part.height, in_whole, whole.format);
         if (!fits) return tl::unexpected(fits.error());
-        blacken(target);
-        return place_part(part, place.region, *jpeg_, target);
+        return part;
       })
-      .map_error(named);
+      .map_error([&](const Error& error) { return named(exposure, error); });
+}
+
+Result<FrameStatus> CameraRecording::read(std::size_t exposure, const MutablePicture& target) {
+  const auto recorded = part(exposure);
+  if (!recorded) return tl::unexpected(recorded.error());
+  blacken(target);
+  return place_part(*recorded, index_.exposures[exposure].region, *jpeg_, target)
+      .map_error([&](const Error& error) { return named(exposure, error); });
 }
 
 }  // namespace orbwatch::hal::recording

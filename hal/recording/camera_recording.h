@@ -10,6 +10,7 @@
 #include "hal/jpeg/jpeg_decoder.h"
 #include "hal/mcap/reader.h"
 #include "hal/recording/camera_index.h"
+#include "hal/recording/recorded_part.h"
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
 
@@ -28,6 +29,10 @@ class CameraRecording {
 
   const CameraIndex& index() const { return index_; }
 
+  /// The recorded part of an exposure, whose size is that of its region; its pixels or JPEG are
+  /// valid until the next call. Quickest in rising order. Error: the disk.
+  Result<RecordedPart> part(std::size_t exposure);
+
   /// Writes the whole picture of an exposure into `target`, of the index' format: its region, and
   /// black around it. Returns Flawed or Intact. Quickest in rising order. Errors: damaged JPEG;
   /// the disk.
@@ -38,6 +43,8 @@ class CameraRecording {
       : file_(std::move(file)), reader_(std::move(reader)), index_(std::move(index)) {}
 
   Result<mcap::Message> load(const RecordedExposure& exposure);
+  /// The error of an exposure with its place.
+  Error named(std::size_t exposure, const Error& error) const;
 
   std::filesystem::path file_;
   mcap::Reader reader_;
