@@ -42,7 +42,7 @@ constexpr std::array kCommandTable{
     Subcommand{"restore", "restore a backup, also on another device", restore_command},
     Subcommand{"reset", "put the delivered configuration back", reset_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
-    Subcommand{"events", "list, show, pin and delete recorded events", events_command},
+    Subcommand{"events", "list, show, pin, delete and export recorded events", events_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},
     Subcommand{"bench", "whether this computer does the work of a configuration", bench_command},
     Subcommand{"describe", "print manuals, and what follows from a rig or a view",

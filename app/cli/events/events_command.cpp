@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "app/cli/command.h"
+#include "app/cli/events/event_export.h"
 #include "app/cli/events/events_text.h"
 #include "app/cli/options/options.h"
 #include "app/files/resolve.h"
@@ -23,13 +26,33 @@ constexpr const char* kEventsUsage =
     "Usage: orbwatch events list [--json] [--config SITE | --folder DIR]\n"
     "       orbwatch events show NAME [--json] [...]\n"
     "       orbwatch events pin | unpin | rm NAME [...]\n"
+    "       orbwatch events export NAME -o FILE [--camera NAME] [--from SET] [--to SET]\n"
+    "                              [--force] [...]\n"
     "\n"
     "Events that orbwatchd recorded with pictures: folders in `events` of its recordings, each\n"
     "with event.mcap for ROS 2, Foxglove and Python, trigger.jpg and summary.json. A pinned event\n"
-    "is not deleted for room; `rm` deletes it nevertheless.\n"
+    "is not deleted for room; `rm` deletes it nevertheless. `export` writes one, or a range of "
+    "it,\n"
+    "as a file for other programs.\n"
     "\n";
 
 constexpr const char* kEventsNotes =
+    "\n"
+    "The ending of FILE says what export writes:\n"
+    "  .mcap  the range as a recording, byte for byte, with the configuration; for orbwatch "
+    "replay\n"
+    "         and the programs above\n"
+    "  .csv   a row for each frame set: utc, utc_ns, frame_set, trigger, recipe, the signals as\n"
+    "         region.NAME.SIGNAL, the machine's state as machine.VALUE\n"
+    "  .tif   the pictures of a camera, grey or RGB, as pages with unchanged samples; the "
+    "description\n"
+    "         of each has utc of the exposure, camera, frame_set, x and y of the recorded part in\n"
+    "         the camera's picture of width and height, celsius_per_count, celsius_at_zero\n"
+    "SET is the number of a frame set, or UTC such as 2026-11-28T09:22:00.125Z; both ends belong "
+    "to\n"
+    "the range. Without them it is the whole event. An export that fails or is cancelled by "
+    "Ctrl-C\n"
+    "leaves no file.\n"
     "\n"
     "--json of list prints one object: events [{name, folder, bytes, pinned, finished}], the "
     "oldest\n"
@@ -73,50 +96,87 @@ Result<std::string> remove(const EventFolder& folder, const StoredEvent& event) 
   return folder.remove(event).map([&] { return event.name + " is deleted\n"; });
 }
 
-Result<std::string> act_on(const EventFolder& folder, const std::string& what,
-                           const std::string& name, bool json) {
+struct EventsOptions {
+  std::filesystem::path config, folder;
+  bool json = false;
+  EventExport exported;
+};
+
+CliResult<std::string> act_on(const EventFolder& folder, const std::string& what,
+                              const std::string& name, const EventsOptions& o) {
   const auto event = folder.find(name);
   if (!event) return tl::unexpected(event.error());
-  if (what == "show") return show(*event, json);
+  if (what == "show") return show(*event, o.json);
+  if (what == "export") return export_event(*event, o.exported);
   if (what == "rm") return remove(folder, *event);
   return pin(*event, what == "pin");
 }
 
-CliResult<std::string> run_events(const std::vector<std::string>& words, bool json,
-                                  std::filesystem::path recordings,
-                                  const std::filesystem::path& config) {
-  constexpr std::array kActions{"show", "pin", "unpin", "rm"};
+/// Checks that options and action go together.
+CliResult<> check_options(const EventsOptions& o, const std::string& what) {
+  const bool is_export = what == "export";
+  const EventExport& exported = o.exported;
+  if (o.json && what != "list" && what != "show") return usage_error("--json is for list and show");
+  if (!o.folder.empty() && !o.config.empty()) return usage_error("say --config or --folder");
+  if (is_export && exported.output.empty()) return usage_error("-o FILE is missing");
+  const bool has_more = !exported.output.empty() || !exported.camera.empty() ||
+                        exported.range.from || exported.range.to || exported.replaces;
+  if (!is_export && has_more)
+    return usage_error("-o, --camera, --from, --to and --force are for export");
+  return {};
+}
+
+CliResult<std::string> run_events(const std::vector<std::string>& words, const EventsOptions& o) {
+  constexpr std::array kActions{"show", "pin", "unpin", "rm", "export"};
   const std::string what = words.empty() ? "" : words.front();
   const bool is_list = what == "list" && words.size() == 1;
   const bool is_action = words.size() == 2 && std::ranges::find(kActions, what) != kActions.end();
-  if (!is_list && !is_action) return usage_error("say list, or show, pin, unpin or rm NAME");
-  if (json && !is_list && what != "show") return usage_error("--json is for list and show");
-  if (!recordings.empty() && !config.empty()) return usage_error("say --config or --folder");
-  if (recordings.empty()) {
-    auto stated = recordings_of(config);
-    if (!stated) return tl::unexpected(stated.error());
-    recordings = std::move(*stated);
-  }
-  const EventFolder folder(recordings);
-  return is_list ? list(folder, json) : act_on(folder, what, words[1], json);
+  if (!is_list && !is_action)
+    return usage_error("say list, or show, pin, unpin, rm or export NAME");
+  if (auto checked = check_options(o, what); !checked) return tl::unexpected(checked.error());
+  auto recordings = o.folder.empty() ? recordings_of(o.config) : o.folder;
+  if (!recordings) return tl::unexpected(recordings.error());
+  const EventFolder folder(*recordings);
+  if (is_list) return list(folder, o.json);
+  return act_on(folder, what, words[1], o);
+}
+
+std::function<Result<>(const std::string&)> range_option(const char* name,
+                                                         std::optional<recorder::RangeEnd>& end) {
+  return [name, &end](const std::string& value) {
+    return recorder::parse_range_end(value)
+        .map([&end](const recorder::RangeEnd& parsed) { end = parsed; })
+        .map_error([name](const Error& error) {
+          return Error{std::string("--") + name + ": " + error.message};
+        });
+  };
+}
+
+std::vector<Option> declare(EventsOptions& o) {
+  EventExport& exported = o.exported;
+  return {
+      {"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
+       text_option(o.config)},
+      {"folder", 0, "DIR", "folder of recordings, such as a copy of orbwatchd's",
+       text_option(o.folder)},
+      {"json", 0, "", "list or show for programs", flag_option(o.json)},
+      {"output", 'o', "FILE", "file to export to", text_option(exported.output)},
+      {"camera", 0, "NAME", "camera whose pictures are exported; needed if there are several",
+       text_option(exported.camera)},
+      {"from", 0, "SET", "first frame set that is exported",
+       range_option("from", exported.range.from)},
+      {"to", 0, "SET", "last frame set that is exported", range_option("to", exported.range.to)},
+      {"force", 0, "", "replace FILE if it exists", flag_option(exported.replaces)}};
 }
 
 }  // namespace
 
 CliResult<std::string> events_command(const Arguments& arguments) {
-  std::filesystem::path config, folder;
-  bool json = false;
+  EventsOptions o;
   return run_command(
       arguments,
-      {.usage = kEventsUsage,
-       .options = {{"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
-                    text_option(config)},
-                   {"folder", 0, "DIR", "folder of recordings, such as a copy of orbwatchd's",
-                    text_option(folder)},
-                   {"json", 0, "", "list or show for programs", flag_option(json)}},
-       .takes_words = true,
-       .notes = kEventsNotes},
-      [&](const auto& words) { return run_events(words, json, folder, config); });
+      {.usage = kEventsUsage, .options = declare(o), .takes_words = true, .notes = kEventsNotes},
+      [&](const auto& words) { return run_events(words, o); });
 }
 
 }  // namespace orbwatch::app::cli

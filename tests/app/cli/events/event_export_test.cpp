@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "tests/app/cli/command_line.h"
+#include "tests/app/cli/replay/recorded_demo.h"
+#include "tests/support/reference_data.h"
+
+/// `orbwatch events export` of what the product's own pipeline recorded of the demo.
+namespace orbwatch::tests {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kEvent = "20261128T090000.125Z-alarm";
+
+class EventExport : public CommandLine {
+ protected:
+  static void SetUpTestSuite() { demo_ = new RecordedDemo(40); }
+  static void TearDownTestSuite() {
+    delete demo_;
+    demo_ = nullptr;
+  }
+
+  void SetUp() override {
+    const std::filesystem::path event = path(std::string("recordings/events/") + kEvent);
+    std::filesystem::create_directories(event);
+    recording_ = event / "event.mcap";
+    demo_->write(recording_);
+  }
+
+  int export_to(const std::string& name, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"events",           "export", kEvent,    "--folder",
+                                       path("recordings"), "-o",     path(name)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  std::vector<std::string> lines_of(const std::string& name) const {
+    std::ifstream file(path(name));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    return lines;
+  }
+
+  std::filesystem::path recording_;
+  static RecordedDemo* demo_;
+};
+RecordedDemo* EventExport::demo_ = nullptr;
+
+TEST_F(EventExport, OfARangeIsMeasuredAsRecorded) {
+  ASSERT_EQ(export_to("part.mcap", {"--to", "30"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("part.mcap: 30 frame sets"));
+  EXPECT_EQ(run({"replay", path("part.mcap"), "--compare"}), 0) << said;
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("0 of "), HasSubstr("frame sets differ")));
+}
+
+TEST_F(EventExport, BeginsAndEndsWithTheStatedFrameSets) {
+  ASSERT_EQ(export_to("part.mcap", {"--from", "10", "--to", "30"}), 0) << said;
+  ASSERT_EQ(run({"replay", path("part.mcap"), "-o", path("measured.csv")}), 0) << said;
+  std::set<int> sets;
+  for (const std::string& line : lines_of("measured.csv")) {
+    if (line.front() != 'u') sets.insert(std::stoi(line.substr(line.find(',') + 1)));
+  }
+  ASSERT_FALSE(sets.empty());
+  EXPECT_GE(*sets.begin(), 10);
+  EXPECT_LE(*sets.rbegin(), 30);
+}
+
+TEST_F(EventExport, IsReadByTheProgramsOfOthers) {
+  const std::filesystem::path readers = ORBWATCH_SOURCE_DIR "/build/mcap-readers/node_modules";
+  ORBWATCH_REQUIRE_FILE(readers / "@mcap/core");
+  ORBWATCH_REQUIRE_FILE(readers / "fzstd");
+  const auto read = [&](const std::filesystem::path& file) {
+    Subprocess program(
+        {"/usr/bin/env", "NODE_PATH=" + readers.string(), "node",
+         ORBWATCH_SOURCE_DIR "/tests/hal/mcap/readers/read.mjs", file.string(), "indexed"},
+        folder / "printed");
+    EXPECT_EQ(program.wait(), 0) << program.output();
+    std::istringstream output(program.output());
+    std::set<std::string> lines;
+    for (std::string line; std::getline(output, line);) {
+      if (!line.starts_with("statistics")) lines.insert(line);
+    }
+    return lines;
+  };
+  ASSERT_EQ(export_to("whole.mcap"), 0) << said;
+  const auto whole = read(recording_);
+  EXPECT_GT(whole.size(), 80U);
+  EXPECT_EQ(read(path("whole.mcap")), whole);
+  ASSERT_EQ(export_to("part.mcap", {"--from", "10", "--to", "30"}), 0) << said;
+  const auto part = read(path("part.mcap"));
+  EXPECT_LT(part.size(), whole.size());
+  EXPECT_TRUE(std::ranges::includes(whole, part));
+}
+
+TEST_F(EventExport, AsATableHasTheSignalsOfEachFrameSet) {
+  ASSERT_EQ(export_to("states.csv", {"--from", "10", "--to", "12"}), 0) << said;
+  const auto lines = lines_of("states.csv");
+  ASSERT_EQ(lines.size(), 1 + 3U);
+  EXPECT_THAT(lines[0], HasSubstr(",region.pool.hot_spot_width,"));
+  EXPECT_THAT(lines[0], HasSubstr(",machine.layer"));
+  EXPECT_THAT(lines[1], HasSubstr("Z,"));
+  EXPECT_THAT(lines[1], HasSubstr(",10,"));
+  EXPECT_THAT(lines[3], HasSubstr(",12,"));
+}
+
+TEST_F(EventExport, AsPicturesHasTheBallOfTheCamera) {
+  ASSERT_EQ(export_to("thermal.tif"), 0) << said;
+  std::vector<cv::Mat> pages;
+  ASSERT_TRUE(cv::imreadmulti(path("thermal.tif"), pages, cv::IMREAD_UNCHANGED));
+  EXPECT_EQ(pages.size(), demo_->pictures());
+  EXPECT_EQ(pages.at(0).size(), cv::Size(RecordedDemo::kBall.width, RecordedDemo::kBall.height));
+  EXPECT_EQ(pages.at(0).type(), CV_16UC1);
+}
+
+TEST_F(EventExport, AnExistingFileIsKeptUnlessForced) {
+  write("mine.csv", std::string("mine"));
+  EXPECT_EQ(export_to("mine.csv"), 1);
+  EXPECT_THAT(said, HasSubstr("say --force"));
+  EXPECT_EQ(lines_of("mine.csv"), std::vector<std::string>{"mine"});
+  EXPECT_EQ(export_to("mine.csv", {"--force"}), 0) << said;
+  EXPECT_GT(lines_of("mine.csv").size(), 1U);
+  EXPECT_EQ(folder.files(), 2) << "nothing beside it";
+}
+
+TEST_F(EventExport, MistakesLeaveNoFile) {
+  const std::string recordings = path("recordings");
+  const auto refuse = [&](std::vector<std::string> arguments, std::vector<std::string> says) {
+    arguments.insert(arguments.end(), {"--folder", recordings});
+    expect_refused("events", {"mistake", std::move(arguments), std::move(says)});
+  };
+  refuse({"export", kEvent}, {"-o FILE is missing"});
+  refuse({"export", kEvent, "-o", "DIR/a.mp4"}, {"must end with one of .mcap, .csv, .tif"});
+  refuse({"export", kEvent, "-o", "DIR/mcap"}, {"must end with one of"});
+  refuse({"export", "../" + std::string(kEvent), "-o", "DIR/a.csv"},
+         {"is not the name of an event"});
+  refuse({"export", kEvent, "-o", "DIR/a.csv", "--from", "noon"}, {"--from: \"noon\" must be"});
+  refuse({"export", kEvent, "-o", "DIR/a.csv", "--from", "30", "--to", "20"}, {"no frame set"});
+  refuse({"export", kEvent, "-o", "DIR/a.csv", "--camera", "thermal"},
+         {"--camera is for pictures"});
+  refuse({"export", kEvent, "-o", "DIR/a.tif", "--camera", "other"}, {"there is no camera other"});
+  refuse({"export", kEvent, "-o", "DIR/missing/a.csv"}, {"missing"});
+  refuse({"show", kEvent, "-o", "DIR/a.csv"}, {"are for export"});
+  std::filesystem::resize_file(recording_, std::filesystem::file_size(recording_) / 2);
+  std::ofstream(recording_, std::ios::in | std::ios::binary | std::ios::ate)
+      << std::string(64, 'x');
+  refuse({"export", kEvent, "-o", "DIR/a.mcap", "--from", "39"}, {"event.mcap"});
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
