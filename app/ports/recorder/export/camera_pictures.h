@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,10 @@ class CameraPictures {
 
   const std::string& camera() const { return camera_; }
   const hal::recording::CameraIndex& index() const { return pictures_.index(); }
+  /// Those in the range.
+  std::span<const hal::recording::RecordedExposure> exposures() const {
+    return std::span(index().exposures).subspan(begin_, end_ - begin_);
+  }
   std::size_t count() const { return end_ - begin_; }
   bool is_done() const { return next_ == end_; }
   /// Begins again with the first picture.
