@@ -24,7 +24,7 @@ _orbwatch() {
     "restore "*) words="--config --camera --passphrase-file --without-secrets --check --undo --help" ;;
     "reset "*) words="--factory --config --from --check --help" ;;
     "configure "*) words="--config --seconds --dry-run --confirm --cancel --help" ;;
-    "events "*) words="--config --folder --json --output --camera --from --to --force --help" ;;
+    "events "*) words="--config --folder --json --output --camera --from --to --draw --force --help" ;;
     "lines "*) words="--safe --config --help" ;;
     "bench "*) words="--config --seconds --simulated --json --help" ;;
     "describe config"*) words="--help" ;;

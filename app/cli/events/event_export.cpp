@@ -9,7 +9,9 @@
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
 #include "app/ports/recorder/events/event_summary.h"
+#include "app/ports/recorder/export/camera_video.h"
 #include "app/ports/recorder/export/copied_range.h"
+#include "app/ports/recorder/export/event_zip.h"
 #include "app/ports/recorder/export/picture_stack.h"
 #include "app/ports/recorder/export/staged_file.h"
 #include "app/ports/recorder/export/state_table.h"
@@ -20,6 +22,7 @@ namespace {
 using recorder::ExportSteps;
 using recorder::StagedFile;
 using recorder::StampRange;
+using recorder::VideoText;
 
 /// An event, and the range of it.
 struct ExportSource {
@@ -32,23 +35,36 @@ struct ExportSource {
 struct ExportKind {
   std::string_view ending;
   bool has_camera;  ///< pictures of one camera
+  bool has_text;    ///< text can be drawn
   Result<> (*write)(const ExportSource& source, const std::filesystem::path& output,
                     const ExportSteps& steps);
 };
 
 constexpr std::array kExportKinds{
-    ExportKind{".mcap", false,
+    ExportKind{".mcap", false, false,
                [](const ExportSource& source, const auto& output, const auto& steps) {
                  return copy_range(source.recording, source.range, output, steps);
                }},
-    ExportKind{".csv", false,
+    ExportKind{".csv", false, false,
                [](const ExportSource& source, const auto& output, const auto& steps) {
                  return write_state_table(source.recording, source.range, output, steps);
                }},
-    ExportKind{".tif", true,
+    ExportKind{".tif", true, false,
                [](const ExportSource& source, const auto& output, const auto& steps) {
                  return write_picture_stack(source.recording, source.options.camera, source.range,
                                             output, steps);
+               }},
+    ExportKind{".avi", true, true,
+               [](const ExportSource& source, const auto& output, const auto& steps) {
+                 const EventExport& o = source.options;
+                 const auto text = o.draws ? VideoText::Values : VideoText::None;
+                 return write_camera_video(source.recording, o.camera, source.range, text, output,
+                                           steps);
+               }},
+    ExportKind{".zip", false, false,
+               [](const ExportSource& source, const auto& output, const auto& steps) {
+                 return write_event_zip(source.recording.parent_path(), source.range, output,
+                                        steps);
                }},
 };
 
@@ -83,7 +99,9 @@ Result<> write_whole(const ExportKind& kind, const ExportSource& source) {
 CliResult<std::string> export_event(const recorder::StoredEvent& event, const EventExport& o) {
   const auto kind = kind_of(o.output);
   if (!kind) return tl::unexpected(kind.error());
-  if (!o.camera.empty() && !(*kind)->has_camera) return usage_error("--camera is for pictures");
+  if (!o.camera.empty() && !(*kind)->has_camera)
+    return usage_error("--camera is for .tif and .avi");
+  if (o.draws && !(*kind)->has_text) return usage_error("--draw is for .avi");
   if (!event.is_finished) return fail(event.name + " is being recorded; export it afterwards");
   const std::filesystem::path recording = event.folder / recorder::kEventFile;
   const auto range = recorder::stamps_in(recording, o.range);

@@ -15,6 +15,7 @@ struct EventExport {
   std::filesystem::path output;  ///< its ending is the kind
   std::string camera;            ///< for pictures; may be empty if the event has one alone
   recorder::ExportRange range;
+  bool draws = false;     ///< values of each frame set, into the pictures of a video
   bool replaces = false;  ///< an existing file
 };
 

@@ -27,7 +27,7 @@ constexpr const char* kEventsUsage =
     "       orbwatch events show NAME [--json] [...]\n"
     "       orbwatch events pin | unpin | rm NAME [...]\n"
     "       orbwatch events export NAME -o FILE [--camera NAME] [--from SET] [--to SET]\n"
-    "                              [--force] [...]\n"
+    "                              [--draw] [--force] [...]\n"
     "\n"
     "Events that orbwatchd recorded with pictures: folders in `events` of its recordings, each\n"
     "with event.mcap for ROS 2, Foxglove and Python, trigger.jpg and summary.json. A pinned event\n"
@@ -39,20 +39,21 @@ constexpr const char* kEventsUsage =
 constexpr const char* kEventsNotes =
     "\n"
     "The ending of FILE says what export writes:\n"
-    "  .mcap  the range as a recording, byte for byte, with the configuration; for orbwatch "
-    "replay\n"
-    "         and the programs above\n"
+    "  .mcap  the range as a recording, byte for byte, with the configuration; for\n"
+    "         orbwatch replay and the programs above\n"
     "  .csv   a row for each frame set: utc, utc_ns, frame_set, trigger, recipe, the signals as\n"
     "         region.NAME.SIGNAL, the machine's state as machine.VALUE\n"
-    "  .tif   the pictures of a camera, grey or RGB, as pages with unchanged samples; the "
-    "description\n"
-    "         of each has utc of the exposure, camera, frame_set, x and y of the recorded part in\n"
-    "         the camera's picture of width and height, celsius_per_count, celsius_at_zero\n"
-    "SET is the number of a frame set, or UTC such as 2026-11-28T09:22:00.125Z; both ends belong "
-    "to\n"
-    "the range. Without them it is the whole event. An export that fails or is cancelled by "
-    "Ctrl-C\n"
-    "leaves no file.\n"
+    "  .tif   the pictures of a camera, grey or RGB, as pages with unchanged samples; the\n"
+    "         description of each has utc of the exposure, camera, frame_set, x and y of the\n"
+    "         recorded part in the camera's picture of width and height, celsius_per_count,\n"
+    "         celsius_at_zero\n"
+    "  .avi   the pictures of a camera as video (MJPEG) at the rate of their median interval;\n"
+    "         16 bit is stretched from the darkest to the brightest pixel of all. --draw adds\n"
+    "         UTC, frame set, signals and the machine's state below each picture\n"
+    "  .zip   the event's folder with event.mcap and states.csv of the range\n"
+    "SET is the number of a frame set, or UTC such as 2026-11-28T09:22:00.125Z; both ends\n"
+    "belong to the range. Without them it is the whole event. An export that fails or is\n"
+    "cancelled by Ctrl-C leaves no file.\n"
     "\n"
     "--json of list prints one object: events [{name, folder, bytes, pinned, finished}], the "
     "oldest\n"
@@ -120,9 +121,10 @@ CliResult<> check_options(const EventsOptions& o, const std::string& what) {
   if (!o.folder.empty() && !o.config.empty()) return usage_error("say --config or --folder");
   if (is_export && exported.output.empty()) return usage_error("-o FILE is missing");
   const bool has_more = !exported.output.empty() || !exported.camera.empty() ||
-                        exported.range.from || exported.range.to || exported.replaces;
+                        exported.range.from || exported.range.to || exported.draws ||
+                        exported.replaces;
   if (!is_export && has_more)
-    return usage_error("-o, --camera, --from, --to and --force are for export");
+    return usage_error("-o, --camera, --from, --to, --draw and --force are for export");
   return {};
 }
 
@@ -166,6 +168,8 @@ std::vector<Option> declare(EventsOptions& o) {
       {"from", 0, "SET", "first frame set that is exported",
        range_option("from", exported.range.from)},
       {"to", 0, "SET", "last frame set that is exported", range_option("to", exported.range.to)},
+      {"draw", 0, "", "draw the values of each frame set below the pictures of a video",
+       flag_option(exported.draws)},
       {"force", 0, "", "replace FILE if it exists", flag_option(exported.replaces)}};
 }
 

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 
+#include "app/ports/recorder/events/event_summary.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/replay/recorded_demo.h"
 #include "tests/support/reference_data.h"
@@ -118,6 +121,39 @@ TEST_F(EventExport, AsPicturesHasTheBallOfTheCamera) {
   EXPECT_EQ(pages.at(0).type(), CV_16UC1);
 }
 
+TEST_F(EventExport, AsAVideoHasThePicturesAndTheirValues) {
+  ASSERT_EQ(export_to("plain.avi", {"--from", "10", "--to", "30"}), 0) << said;
+  ASSERT_EQ(export_to("drawn.avi", {"--from", "10", "--to", "30", "--draw"}), 0) << said;
+  ASSERT_EQ(export_to("all.tif", {"--from", "10", "--to", "30"}), 0) << said;
+  std::vector<cv::Mat> pages;
+  ASSERT_TRUE(cv::imreadmulti(path("all.tif"), pages, cv::IMREAD_UNCHANGED));
+  cv::VideoCapture plain(path("plain.avi")), drawn(path("drawn.avi"));
+  std::size_t pictures = 0;
+  for (cv::Mat picture, with_text; plain.read(picture) && drawn.read(with_text); ++pictures) {
+    EXPECT_EQ(picture.size(), pages.at(0).size());
+    EXPECT_GE(with_text.cols, 320);
+    ASSERT_GT(with_text.rows, picture.rows + 100) << "signals of two regions, the machine";
+    EXPECT_GT(cv::mean(with_text.rowRange(picture.rows, with_text.rows))[0], 2) << "text";
+  }
+  EXPECT_EQ(pictures, pages.size());
+}
+
+TEST_F(EventExport, AsAnArchiveIsUnpackedAsAFolderOfTheEvent) {
+  app::recorder::EventSummary summary;
+  summary.trigger = "alarm";
+  ASSERT_TRUE(app::recorder::write_summary(recording_.parent_path(), summary));
+  ASSERT_EQ(export_to("event.zip", {"--to", "30"}), 0) << said;
+  std::filesystem::create_directories(path("unpacked/events"));
+  Subprocess python(
+      {"/usr/bin/python3", "-m", "zipfile", "-e", path("event.zip"), path("unpacked/events")},
+      folder / "printed");
+  ASSERT_EQ(python.wait(), 0) << python.output();
+  ASSERT_EQ(run({"events", "show", kEvent, "--folder", path("unpacked")}), 0) << said;
+  const std::string event = std::string("unpacked/events/") + kEvent;
+  EXPECT_EQ(lines_of(event + "/states.csv").size(), 1 + 30U);
+  EXPECT_EQ(run({"replay", path(event + "/event.mcap"), "--compare"}), 0) << said;
+}
+
 TEST_F(EventExport, AnExistingFileIsKeptUnlessForced) {
   write("mine.csv", std::string("mine"));
   EXPECT_EQ(export_to("mine.csv"), 1);
@@ -135,14 +171,16 @@ TEST_F(EventExport, MistakesLeaveNoFile) {
     expect_refused("events", {"mistake", std::move(arguments), std::move(says)});
   };
   refuse({"export", kEvent}, {"-o FILE is missing"});
-  refuse({"export", kEvent, "-o", "DIR/a.mp4"}, {"must end with one of .mcap, .csv, .tif"});
+  refuse({"export", kEvent, "-o", "DIR/a.mp4"},
+         {"must end with one of .mcap, .csv, .tif, .avi, .zip"});
   refuse({"export", kEvent, "-o", "DIR/mcap"}, {"must end with one of"});
   refuse({"export", "../" + std::string(kEvent), "-o", "DIR/a.csv"},
          {"is not the name of an event"});
   refuse({"export", kEvent, "-o", "DIR/a.csv", "--from", "noon"}, {"--from: \"noon\" must be"});
   refuse({"export", kEvent, "-o", "DIR/a.csv", "--from", "30", "--to", "20"}, {"no frame set"});
   refuse({"export", kEvent, "-o", "DIR/a.csv", "--camera", "thermal"},
-         {"--camera is for pictures"});
+         {"--camera is for .tif and .avi"});
+  refuse({"export", kEvent, "-o", "DIR/a.tif", "--draw"}, {"--draw is for .avi"});
   refuse({"export", kEvent, "-o", "DIR/a.tif", "--camera", "other"}, {"there is no camera other"});
   refuse({"export", kEvent, "-o", "DIR/missing/a.csv"}, {"missing"});
   refuse({"show", kEvent, "-o", "DIR/a.csv"}, {"are for export"});
