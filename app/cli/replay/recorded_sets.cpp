@@ -57,6 +57,11 @@ Result<std::optional<RecordedSet>> RecordedSets::next_state() {
   if (!*recorded) return std::nullopt;
   RecordedSet set;
   set.utc = (*recorded)->utc;
+  if (set.utc < newest_) {
+    return fail(states_.file().string() + ": state " + std::to_string(states_.count() - 1) +
+                ": its stamp is before that of the state before");
+  }
+  newest_ = set.utc;
   set.computed = clock_.to_moment((*recorded)->computed);
   set.state = std::move((*recorded)->state);
   return set;

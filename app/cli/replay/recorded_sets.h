@@ -66,6 +66,7 @@ class RecordedSets {
   recorder::RecordedStates states_;
   hal::recording::RecordedClock clock_;
   std::vector<Camera> cameras_;
+  std::uint64_t newest_ = 0;  ///< stamp
   std::size_t without_pictures_ = 0;
 };
 

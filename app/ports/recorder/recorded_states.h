@@ -21,18 +21,19 @@ struct RecordedState {
   ProcessState state;
 };
 
-/// The states of the process in a recording of any origin, one after another. Thread-bound.
+/// The states of the process in a recording of any origin, in the order of the file. Stamps may go
+/// backwards, such as when another camera paces the frame sets. Thread-bound.
 class RecordedStates {
  public:
   /// Errors: those of hal::mcap::Reader.
   static Result<RecordedStates> open(const std::filesystem::path& file);
 
-  /// The next state; nullopt behind the last one. Errors: damaged; a stamp before that of the state
-  /// before.
+  /// The next state; nullopt behind the last one. Error: damaged.
   Result<std::optional<RecordedState>> next();
 
   /// States so far.
   std::size_t count() const { return count_; }
+  const std::filesystem::path& file() const { return file_; }
   /// The recording, for what is not in its chunks.
   hal::mcap::Reader& reader() { return reader_; }
 
@@ -45,7 +46,6 @@ class RecordedStates {
   std::filesystem::path file_;
   hal::mcap::Reader reader_;
   std::size_t next_chunk_ = 0;
-  std::uint64_t newest_ = 0;  ///< stamp
   std::size_t count_ = 0;
 };
 

@@ -94,9 +94,9 @@ Result<StampRange> stamps_in(const std::filesystem::path& recording, const Expor
     if (!first) first = last;
     if (range.from && !is_reached(*range.from, *last)) continue;
     if (range.to && is_passed(*range.to, *last)) continue;
-    if (range.from && stamps.sets == 0) stamps.first = last->utc;
-    if (range.to) stamps.last = last->utc;
-    ++stamps.sets;
+    const bool is_first = stamps.sets++ == 0;
+    if (range.from) stamps.first = is_first ? last->utc : std::min(stamps.first, last->utc);
+    if (range.to) stamps.last = is_first ? last->utc : std::max(stamps.last, last->utc);
   }
   if (!last) return fail(recording.string() + ": no state of the process, so no frame set");
   if (stamps.sets > 0) return stamps;

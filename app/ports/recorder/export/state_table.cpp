@@ -27,7 +27,7 @@ Result<> for_each_state(const std::filesystem::path& recording, const StampRange
   while (true) {
     const auto state = states->next();
     if (!state) return tl::unexpected(state.error());
-    if (!*state || (*state)->utc > range.last) return {};
+    if (!*state) return {};
     if (!range.has((*state)->utc)) continue;
     if (auto visited = visit(**state); !visited) return visited;
   }

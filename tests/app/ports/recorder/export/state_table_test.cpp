@@ -93,6 +93,29 @@ TEST_F(WrittenStates, HaveAColumnForEachValueOfAnyFrameSet) {
                   "1970-01-01T00:00:02.000000000Z,2000000000,2,,3,,,,,0.1"));
 }
 
+TEST_F(WrittenStates, MayGoBackwards) {
+  tests::PictureFile file(folder_ / "a.mcap");
+  const auto channel = file.add("/orbwatch/process_state", hal::recording::SetNumbers::kType);
+  for (const std::uint64_t number : {1U, 2U, 3U, 4U}) {
+    ProcessState state;
+    state.frame_set = number;
+    const std::uint64_t stamp = number == 2 ? 900 : 1000 * number;
+    file.write(channel, stamp, static_cast<std::uint32_t>(number), state);
+  }
+  file.finish();
+  const ExportRange to_third{{}, RangeEnd{false, 3}};
+  const auto range = stamps_in(folder_ / "a.mcap", to_third);
+  ASSERT_TRUE(range) << range.error().message;
+  EXPECT_EQ(range->sets, 3U);
+  ASSERT_TRUE(write_state_table(folder_ / "a.mcap", *range, folder_ / "states.csv",
+                                [](auto, auto, auto) { return true; }));
+  EXPECT_THAT(lines_in(folder_ / "states.csv"),
+              testing::ElementsAre(testing::_, EndsWith(",1000,1,,0"), EndsWith(",900,2,,0"),
+                                   EndsWith(",3000,3,,0")));
+  const ExportRange second{RangeEnd{false, 2}, RangeEnd{false, 2}};
+  EXPECT_EQ(stamps_in(folder_ / "a.mcap", second)->first, 900U);
+}
+
 TEST_F(WrittenStates, OfMoreValuesThanATableCanHaveAreRefused) {
   std::vector<Figure> figures(5000);
   for (std::size_t k = 0; k < figures.size(); ++k) figures[k].name = std::to_string(k);
