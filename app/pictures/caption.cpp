@@ -7,8 +7,9 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr int kLineHeight = 14, kMargin = 4, kColumnWidth = 320;  ///< px
+constexpr int kLineHeight = 14, kMargin = 4, kColumnWidth = 400;  ///< px
 constexpr double kFontScale = 0.8;
+constexpr std::size_t kMostRows = 45;
 
 std::string printable(std::string text) {
   text.resize(std::min(text.size(), Caption::kMostLength));
@@ -17,11 +18,16 @@ std::string printable(std::string text) {
   return text;
 }
 
+std::size_t columns_for(int picture_width, std::size_t lines) {
+  return std::max({std::size_t{1}, static_cast<std::size_t>(picture_width / kColumnWidth),
+                   (lines + kMostRows - 1) / kMostRows});
+}
+
 }  // namespace
 
-Caption::Caption(int picture_width, std::size_t lines)
-    : width_(std::max(picture_width, kColumnWidth)) {
-  const auto columns = static_cast<std::size_t>(width_ / kColumnWidth);
+Caption::Caption(int picture_width, std::size_t lines) {
+  const std::size_t columns = columns_for(picture_width, lines);
+  width_ = std::max(picture_width, static_cast<int>(columns) * kColumnWidth);
   rows_ = std::max<std::size_t>(1, (lines + columns - 1) / columns);
 }
 

@@ -10,11 +10,12 @@
 
 namespace orbwatch::app {
 
-/// Short lines of text in as many columns as a picture's width has room for. Reentrant.
+/// Lines of text below a picture, in columns: as many as its width has room for, or more if the
+/// lines would be higher than a screen. Reentrant.
 class Caption {
  public:
   /// Characters of a line; more are cut.
-  static constexpr std::size_t kMostLength = 44;
+  static constexpr std::size_t kMostLength = 56;
 
   /// For pictures of this width, and at most this number of lines.
   Caption(int picture_width, std::size_t lines);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "app/pictures/picture_conversion.h"
 #include "app/ports/recorder/export/state_values.h"
@@ -32,9 +33,12 @@ std::vector<std::string> lines_of(const ExportedPicture& picture) {
   std::vector<std::string> lines{utc_text_at(picture.exposure.set_time)};
   if (picture.state == nullptr) return lines;
   lines.push_back("frame set " + std::to_string(picture.state->frame_set));
+  constexpr std::string_view kRegionTitle = "region.";
   for_each_value(*picture.state, [&](const std::string& title, const Figure& figure) {
     const std::string value = shown(figure);
-    if (!value.empty() && lines.size() < kMostLines) lines.push_back(title + " " + value);
+    if (value.empty() || lines.size() == kMostLines) return;
+    const bool is_signal = title.starts_with(kRegionTitle);
+    lines.push_back(title.substr(is_signal ? kRegionTitle.size() : 0) + " " + value);
   });
   return lines;
 }

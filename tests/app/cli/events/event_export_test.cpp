@@ -131,7 +131,7 @@ TEST_F(EventExport, AsAVideoHasThePicturesAndTheirValues) {
   std::size_t pictures = 0;
   for (cv::Mat picture, with_text; plain.read(picture) && drawn.read(with_text); ++pictures) {
     EXPECT_EQ(picture.size(), pages.at(0).size());
-    EXPECT_GE(with_text.cols, 320);
+    EXPECT_GE(with_text.cols, 800);
     ASSERT_GT(with_text.rows, picture.rows + 100) << "signals of two regions, the machine";
     EXPECT_GT(cv::mean(with_text.rowRange(picture.rows, with_text.rows))[0], 2) << "text";
   }

@@ -113,7 +113,7 @@ TEST_F(CameraVideo, WithTextKeepsThePictureAndTellsThemApart) {
   ASSERT_EQ(pictures.size(), colour_sets(2, 9).size());
   ASSERT_EQ(pictures.size(), plain.size());
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    EXPECT_EQ(pictures[k].cols, 320);
+    EXPECT_EQ(pictures[k].cols, 400);
     const cv::Mat text = pictures[k].rowRange(16, pictures[k].rows);
     double most = 0;
     cv::minMaxLoc(text.reshape(1), nullptr, &most);
