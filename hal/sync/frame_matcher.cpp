@@ -11,6 +11,8 @@ namespace {
 /// Intervals without a frame after which a free-running camera is late.
 constexpr int kLateIntervals = 3;
 constexpr Clock::duration kLeastPatience = std::chrono::milliseconds(100);
+/// A stamp so far back is that of a clock that was set, and no late frame.
+constexpr Clock::duration kClockStep = std::chrono::seconds(10);
 
 bool have_triggers(const FrameMetadata& a, const FrameMetadata& b) {
   return a.trigger.has_value() && b.trigger.has_value();
@@ -123,11 +125,16 @@ bool FrameMatcher::has_set(TimePoint now) const {
   return pacer != cameras_ && choose(pacer, now);
 }
 
-/// A trigger makes one set at most: a new pacing camera does not repeat the sets of the previous
-/// one.
+/// True if a set was made of the frame's trigger or of a later moment, by another pacing camera.
+bool FrameMatcher::is_past(const FrameMetadata& frame) const {
+  if (frame.trigger) return last_trigger_ && *frame.trigger <= *last_trigger_;
+  if (!last_stamp_) return false;
+  const Clock::duration late = *last_stamp_ - frame.exposure_start;
+  return late >= Clock::duration::zero() && late < kClockStep;
+}
+
 void FrameMatcher::discard_late(Inbox& pacer, ReleasedFrames& released) {
-  while (pacer.size > 0 && last_trigger_ && pacer.queue[0].frame->metadata.trigger &&
-         *pacer.queue[0].frame->metadata.trigger <= *last_trigger_) {
+  while (pacer.size > 0 && is_past(pacer.queue[0].frame->metadata)) {
     discard(pacer, 0, &FrameCounts::unmatched, released);
   }
 }
@@ -241,6 +248,7 @@ FrameSet FrameMatcher::assemble(std::size_t pacer, TimePoint now, ReleasedFrames
   set.trigger = metadata.trigger;
   set.frames[pacer] = paced;
   if (set.trigger) last_trigger_ = set.trigger;
+  last_stamp_ = set.stamp;
   TimePoint first = set.stamp;
   TimePoint last = set.stamp;
   for (std::size_t i = 0; i < cameras_; ++i) {

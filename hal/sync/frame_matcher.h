@@ -73,7 +73,9 @@ class ReleasedFrames {
 /// stop the sets of the others until it is known to have a fault, nor be shown as new. Queues: for
 /// a free-running camera the last kFreeRunningDepth frames (1 when it is alone); for the pacing
 /// camera the newest ready frame wins; for a triggered camera a FIFO of kTriggeredDepth, each of
-/// which becomes a set. Frames that leave unused are counted by reason.
+/// which becomes a set. Without triggers, frames from before the last set make none after a change
+/// of the pacing camera: stamps do not go backwards. Frames that leave unused are counted by
+/// reason.
 class FrameMatcher {
  public:
   /// `cameras`: 1..kMaxCameras. Window and max_wait must not be below 0.
@@ -126,6 +128,7 @@ class FrameMatcher {
   static void discard(Inbox& inbox, std::size_t index, Reason reason, ReleasedFrames& released);
   std::size_t depth(const Frame& frame) const;
   std::size_t pacing(TimePoint now) const;
+  bool is_past(const FrameMetadata& frame) const;
   void discard_late(Inbox& pacer, ReleasedFrames& released);
   std::optional<std::size_t> choose(std::size_t pacer, TimePoint now) const;
   bool is_ready(std::size_t pacer, std::size_t index, TimePoint now) const;
@@ -141,6 +144,7 @@ class FrameMatcher {
   std::array<Inbox, kMaxCameras> inboxes_;
   std::uint64_t sets_ = 0;
   std::optional<std::uint64_t> last_trigger_;  ///< trigger of the newest triggered set
+  std::optional<TimePoint> last_stamp_;        ///< of the last set
 };
 
 }  // namespace orbwatch::hal

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <vector>
@@ -256,8 +257,11 @@ TEST(FrameMatcherProperties, NothingIsLostOrDoubledAndMemoryIsBounded) {
     play.finish(plans.size());
     expect_each_frame_once(play, events, plans.size());
     std::set<std::uint64_t> triggers;
+    std::optional<TimePoint> before;
     for (const FrameSet& set : play.sets) {
       expect_sound(set, settings, plans.size());
+      if (!set.trigger && before) EXPECT_GT(set.stamp, *before);
+      before = set.stamp;
       if (set.trigger) {
         EXPECT_TRUE(triggers.insert(*set.trigger).second) << "a trigger twice";
       }

@@ -262,6 +262,36 @@ TEST(FrameMatcher, AnotherCameraPacesWhileTheFirstIsSilent) {
   EXPECT_EQ(number(*next, 1), 6);
 }
 
+/// The first camera delivers late what it exposed before the last set of the other one.
+TEST(FrameMatcher, AFrameFromBeforeTheLastSetMakesNone) {
+  Matcher matcher(2);
+  for (int n = 0; n < 3; ++n) {  // both cameras at 20 Hz
+    matcher.advance_to(50 * n);
+    matcher.put(0, frame(static_cast<std::uint64_t>(n), 50 * n));
+    matcher.put(1, frame(static_cast<std::uint64_t>(n), 50 * n + 1));
+    ASSERT_TRUE(matcher.take());
+  }
+  matcher.advance_to(260);
+  matcher.put(1, frame(5, 251));
+  matcher.advance_to(280);
+  ASSERT_TRUE(matcher.take());
+  matcher.put(0, frame(4, 200));
+  matcher.advance_to(300);
+  EXPECT_FALSE(matcher.take());
+  EXPECT_EQ(matcher.counts(0).unmatched, 1U);
+  matcher.put(1, frame(6, 301));
+  matcher.put(0, frame(6, 300));
+  EXPECT_EQ(number(matcher.take().value(), 0), 6);
+}
+
+TEST(FrameMatcher, ACameraWhoseClockWasSetBackPacesNevertheless) {
+  Matcher matcher(1);
+  matcher.put(0, frame(0, 60'000));
+  ASSERT_TRUE(matcher.take());
+  matcher.put(0, frame(1, 50));
+  EXPECT_EQ(number(matcher.take().value(), 0), 1);
+}
+
 TEST(FrameMatcher, ATriggeredCameraIsNeverLate) {
   Matcher matcher(2);
   matcher.put(0, frame(0, 0, 1));
