@@ -34,6 +34,7 @@ std::string yes(bool truth) { return truth ? "yes" : ""; }
 std::string stored_events_text(const std::vector<recorder::StoredEvent>& events) {
   if (events.empty()) return "no event is recorded\n";
   std::vector<Fields> records;
+  records.reserve(events.size());
   for (const recorder::StoredEvent& event : events) {
     records.push_back({{"name", event.name},
                        {"MiB", mebibytes(event.bytes)},

@@ -17,10 +17,13 @@ std::string contents_text(const SupportFile& file, std::size_t changed) {
                      ", " + utc_text(std::chrono::system_clock::now()).value_or("") +
                      "\n\nFiles:\n";
   for (const ArchivedFile& one : file.files) {
-    text += "  " + one.name + ", " + std::to_string(one.bytes.size()) + " bytes\n";
+    text.append("  ").append(one.name).append(", ");
+    text.append(std::to_string(one.bytes.size())).append(" bytes\n");
   }
   text += "\nLeft out:\n";
-  for (const auto& [name, reason] : file.left_out) text += "  " + name + ": " + reason + "\n";
+  for (const auto& [name, reason] : file.left_out) {
+    text.append("  ").append(name).append(": ").append(reason).append("\n");
+  }
   return text +
          "\nSecrets are removed: passwords and their hashes, keys, tokens, codes, and the comments "
          "of\nthe configuration. Files from which something was removed, marked " +
