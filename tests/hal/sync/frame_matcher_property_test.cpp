@@ -260,7 +260,9 @@ TEST(FrameMatcherProperties, NothingIsLostOrDoubledAndMemoryIsBounded) {
     std::optional<TimePoint> before;
     for (const FrameSet& set : play.sets) {
       expect_sound(set, settings, plans.size());
-      if (!set.trigger && before) EXPECT_GT(set.stamp, *before);
+      if (!set.trigger && before) {
+        EXPECT_GT(set.stamp, *before);
+      }
       before = set.stamp;
       if (set.trigger) {
         EXPECT_TRUE(triggers.insert(*set.trigger).second) << "a trigger twice";
