@@ -130,7 +130,7 @@ bool FrameMatcher::is_past(const FrameMetadata& frame) const {
   if (frame.trigger) return last_trigger_ && *frame.trigger <= *last_trigger_;
   if (!last_stamp_) return false;
   const Clock::duration late = *last_stamp_ - frame.exposure_start;
-  return late >= Clock::duration::zero() && late < kClockStep;
+  return late > Clock::duration::zero() && late < kClockStep;
 }
 
 void FrameMatcher::discard_late(Inbox& pacer, ReleasedFrames& released) {

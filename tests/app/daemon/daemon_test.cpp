@@ -102,7 +102,7 @@ bool is_of_a_library(const std::string& name) {
          std::ranges::count(std::array{"tev", "gc", "lease"}, name) > 0;
 }
 
-TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndNineMore) {
+TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndTenMore) {
   constexpr std::ptrdiff_t kCameras = 2, kWorkers = 1, kInterfaces = 2;  // Modbus and DDS
   constexpr std::ptrdiff_t kOfSanitizer = tests::kHasThreadSanitizer ? 1 : 0;
   std::string site = "[pipeline]\nworkers = 1\n" + small_machine();
@@ -125,7 +125,7 @@ TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndNineMore) {
       own += name + ", ";
       ++count;
     }
-    return count <= kCameras + kWorkers + kInterfaces + 9 + kOfSanitizer;
+    return count <= kCameras + kWorkers + kInterfaces + 10 + kOfSanitizer;
   })) << own;
 }
 

@@ -34,6 +34,7 @@ std::size_t least_bytes(const std::vector<RecordedCamera>& cameras) {
 std::vector<bool> recorded_ones(const EventSettings& settings,
                                 const std::vector<RecordedCamera>& cameras) {
   std::vector<bool> recorded;
+  recorded.reserve(cameras.size());
   for (const RecordedCamera& camera : cameras) recorded.push_back(is_recorded(settings, camera));
   return recorded;
 }
