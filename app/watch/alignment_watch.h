@@ -33,8 +33,8 @@ class AlignmentWatch {
   /// Sets the figures of the alignment. Logs when the level changes.
   void observe(const Picture& picture, hal::TimePoint stamp, CameraWatchStatus& figures);
 
-  /// The picture of a zero that observe() learnt or read, once: there the stated outline is to be
-  /// checked.
+  /// The picture of a zero that observe() learnt or read, in which the stated outline is to be
+  /// checked; each only once.
   std::optional<OutlineSubject> take_zero_picture() {
     return std::exchange(zero_picture_, std::nullopt);
   }

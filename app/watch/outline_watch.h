@@ -15,9 +15,9 @@
 namespace orbwatch::app {
 
 /// Compares the outline that the rig states for one camera with its ball, in a picture that is
-/// kept. Detection takes up to seconds: it has threads of its own, so that no frame waits for it,
-/// whose memory may be one of the driver's two buffers.
-/// Thread rule: check() and stop() on one thread, the rest on any.
+/// kept. Detection takes up to seconds: it has threads of its own and works on a copy, since a
+/// frame that waited for it would keep a buffer of the driver, which may have two only. Thread
+/// rule: check() and stop() on one thread, the rest on any.
 class OutlineWatch {
  public:
   /// `name`: the camera's.

@@ -10,7 +10,7 @@
 
 namespace orbwatch::app::cli {
 
-/// What `orbwatch events export` writes of an event.
+/// Options of `orbwatch events export`.
 struct EventExport {
   std::filesystem::path output;  ///< its ending is the kind
   std::string camera;            ///< for pictures; may be empty if the event has one alone

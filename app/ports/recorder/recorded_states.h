@@ -14,7 +14,8 @@
 
 namespace orbwatch::app::recorder {
 
-/// What was reported of a frame set. Times are nanoseconds of UTC since 1970.
+/// State of the process that was reported with a frame set. Times are nanoseconds of UTC since
+/// 1970.
 struct RecordedState {
   std::uint64_t utc = 0;       ///< stamp of the frame set
   std::uint64_t computed = 0;  ///< when it was measured; if not known, its stamp

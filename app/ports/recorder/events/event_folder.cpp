@@ -150,7 +150,8 @@ Result<StoredEvent> EventFolder::find(std::string_view name) const {
     return fail("\"" + std::string(name) +
                 "\" is not the name of an event, such as 20261128T092200.125Z-alarm");
   }
-  for (const bool is_finished : {true, false}) {
+  // In the order of an event's life: it may be finished in between.
+  for (const bool is_finished : {false, true}) {
     const fs::path folder = root_ / std::string(name).append(is_finished ? "" : kUnfinished);
     std::error_code none;
     if (fs::is_directory(folder, none)) return stored(folder, std::string(name), is_finished);

@@ -23,7 +23,7 @@ struct StoredEvent {
   std::uint64_t bytes = 0;
   bool is_pinned = false;
   bool is_finished = true;  ///< false: it is being recorded, or its recorder ended early
-  /// Of `folder`, see settled_change().
+  /// Time of the last change of names in `folder`, see settled_change().
   std::optional<std::filesystem::file_time_type> changed;
 
   bool operator==(const StoredEvent&) const = default;

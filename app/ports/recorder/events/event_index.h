@@ -21,7 +21,7 @@ class EventIndex {
   /// Follows the folder. True: the events differ from those before. Error: the folder.
   Result<bool> update();
 
-  /// As of the last update, the oldest first by their names.
+  /// Events of the last update, the oldest first by their names.
   const std::vector<StoredEvent>& events() const { return events_; }
   /// Those of them that are being recorded, or whose recorder ended early.
   const std::vector<StoredEvent>& unfinished() const { return unfinished_; }
