@@ -9,22 +9,23 @@
 
 #include <immintrin.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
 #include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/kernel/find_entries_avx2.h"
 #include "proc/remap/kernel/look_up.h"
+#include "proc/remap/kernel/mix_avx2.h"
 #include "proc/remap/kernel/point_walk.h"
-#include "proc/remap/kernel/tile_mix.h"
+#include "proc/remap/kernel/windows_avx2.h"
 #include "proc/remap/kernel/yuv420_mix.h"
+#include "proc/remap/kernel/yuv_avx2.h"
 
 namespace orbwatch::remap::avx2 {
 namespace {
 
 constexpr int kMostBlocks = kTile / kBlock, kMostRows = 2 * kMostBlocks;
-
-__m128i load128(const void* from) { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
-__m256i each(int value) { return _mm256_set1_epi16(static_cast<short>(value)); }
 
 /// Positions of the blocks of one row. Written as vectors, read block by block.
 struct alignas(32) BlockRow {
@@ -69,14 +70,24 @@ void walk(const BlockMap& map, BlockRow* rows) {
   }
 }
 
+/// Pixels of a block that are made: all, or those in even columns or rows of two blocks, each of
+/// which fills one half of a register.
+enum class Kept { All, EvenColumns, EvenRows };
+
 /// One axis: the lanes of block (0, 0) without its place, and their steps from block to block.
 struct Shape {
   using Axis = std::int16_t AxisPair<std::int16_t>::*;
   __m256i start, along_x, along_y;
 
-  Shape(const LaneShape& shape, Axis axis, std::uint16_t offset) {
-    const __m256i i = _mm256_set1_epi64x(0x0003000200010000);
-    const __m256i j = _mm256_setr_epi16(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+  Shape(const LaneShape& shape, Axis axis, std::uint16_t offset, Kept kept) {
+    const __m256i all = _mm256_set1_epi64x(0x0003000200010000);
+    const __m256i even = _mm256_set1_epi32(0x00020000);
+    const __m256i i = kept == Kept::EvenColumns ? even : all;
+    const __m256i j = kept == Kept::All
+                          ? _mm256_setr_epi16(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
+                      : kept == Kept::EvenColumns
+                          ? _mm256_setr_epi16(0, 0, 1, 1, 2, 2, 3, 3, 0, 0, 1, 1, 2, 2, 3, 3)
+                          : _mm256_setr_epi16(0, 0, 0, 0, 2, 2, 2, 2, 0, 0, 0, 0, 2, 2, 2, 2);
     const auto sum = [i, j](__m256i a, __m256i b) {
       return _mm256_add_epi16(_mm256_mullo_epi16(i, a), _mm256_mullo_epi16(j, b));
     };
@@ -99,64 +110,15 @@ struct Shape {
     along_x = _mm256_srai_epi16(_mm256_add_epi16(along_x, half), kShift);
     along_y = _mm256_srai_epi16(_mm256_add_epi16(along_y, half), kShift);
   }
-};
 
-/// Positions and weights for the interpolation of a block's pixels.
-struct Places {
-  /// Indices of the two upper neighbours in each of the four tables of a channel, and of the two
-  /// lower ones. Bit 7 is set, so that vpshufb yields 0, if they lie before that table.
-  __m256i upper[4], lower[4];
-  __m256i across;  ///< weights w - 128, -w along u
-  __m256i v;
-
-  Places(__m256i u, __m256i lanes_v) : v(lanes_v) {
-    constexpr int kRowShift = kRowFractionBits - 3;
-    const __m256i whole =
-        _mm256_or_si256(_mm256_srli_epi16(u, kFractionBits),
-                        _mm256_and_si256(_mm256_srli_epi16(v, kRowShift), each(7 << 3)));
-    upper[0] = _mm256_add_epi16(_mm256_mullo_epi16(whole, each(0x0101)), each(0x0100));
-    lower[0] = _mm256_add_epi8(upper[0], _mm256_set1_epi8(kWindow));
-#pragma GCC unroll 4
-    for (int table = 1; table < 4; ++table) {
-      const __m256i size = _mm256_set1_epi8(2 * kWindow);
-      upper[table] = _mm256_sub_epi8(upper[table - 1], size);
-      lower[table] = _mm256_sub_epi8(lower[table - 1], size);
-    }
-    const __m256i w =
-        _mm256_and_si256(_mm256_srli_epi16(u, kFractionBits - kWeightBits), each(kUnitWeight - 1));
-    across = _mm256_xor_si256(_mm256_mullo_epi16(w, each(1 - 256)), each(kUnitWeight));
+  /// Moves the upper half to the second block of a pair, and doubles the step between pairs.
+  void step_by_pairs(Kept kept) {
+    if (kept == Kept::All) return;
+    __m256i& step = kept == Kept::EvenColumns ? along_x : along_y;
+    start = _mm256_add_epi16(start, _mm256_blend_epi32(_mm256_setzero_si256(), step, 0xf0));
+    step = _mm256_add_epi16(step, step);
   }
 };
-
-/// One byte of each pixel's sample, times -kUnitWeight: interpolated along u in the rows above and
-/// below.
-struct Rows {
-  __m256i top, bottom;
-};
-
-/// Interpolates one channel of a window, 8 rows of 8 bytes that are `stride` apart.
-[[gnu::always_inline]] inline Rows interpolate_rows(const std::uint8_t* from, std::ptrdiff_t stride,
-                                                    const Places& places) {
-  const auto table = [=](int k) {
-    const auto row = [=](int r) {
-      return _mm256_broadcastq_epi64(_mm_loadu_si64(from + r * stride));
-    };
-    return _mm256_blend_epi32(row(2 * k), row(2 * k + 1), 0xcc);
-  };
-  // A lookup hits its table and all before it. Each table except the first is therefore the
-  // exclusive or of two, and the results are combined by exclusive or.
-  __m256i before = table(0);
-  __m256i upper = _mm256_shuffle_epi8(before, places.upper[0]);
-  __m256i lower = _mm256_shuffle_epi8(before, places.lower[0]);
-#pragma GCC unroll 4
-  for (int k = 1; k < 4; ++k) {
-    const __m256i next = table(k), change = _mm256_xor_si256(before, next);
-    upper = _mm256_xor_si256(upper, _mm256_shuffle_epi8(change, places.upper[k]));
-    lower = _mm256_xor_si256(lower, _mm256_shuffle_epi8(change, places.lower[k]));
-    before = next;
-  }
-  return {_mm256_maddubs_epi16(upper, places.across), _mm256_maddubs_epi16(lower, places.across)};
-}
 
 /// 8 bit samples from one channel.
 __m256i sample8(const Rows& rows, __m256i v) {
@@ -190,61 +152,22 @@ __m256i sample16(const Rows& low, const Rows& high, __m256i v) {
   return _mm256_packus_epi32(rounded(sum02(low), sum02(high)), rounded(sum13(low), sum13(high)));
 }
 
-/// A window split into channels: each row has first 8 bytes of one channel, then 8 of the next.
-template <int pixel_bytes>
-struct Planar {
-  static constexpr int kPitch = pixel_bytes == 2 ? 16 : 32;
-  alignas(32) std::uint8_t rows[kWindow * kPitch];
-
-  void fill(const std::uint8_t* from, std::ptrdiff_t stride) {
-#pragma GCC unroll 8
-    for (int row = 0; row < kWindow; ++row, from += stride) split(from, rows + row * kPitch);
-  }
-
- private:
-  static void split(const std::uint8_t* from, std::uint8_t* to) {
-    if constexpr (pixel_bytes == 2) {
-      const __m128i by_channel =
-          _mm_setr_epi8(0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15);
-      _mm_store_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(load128(from), by_channel));
-    } else {
-      // Four pixels are in each half. Reads of three byte pixels do not go beyond the row's 24
-      // bytes.
-      constexpr int kSecond = pixel_bytes == 3 ? 8 : 16;
-      const __m256i pixels = _mm256_inserti128_si256(_mm256_castsi128_si256(load128(from)),
-                                                     load128(from + kSecond), 1);
-      const __m256i by_channel =
-          pixel_bytes == 3
-              ? _mm256_setr_epi8(0, 3, 6, 9, 1, 4, 7, 10, 2, 5, 8, 11, -1, -1, -1, -1,  //
-                                 4, 7, 10, 13, 5, 8, 11, 14, 6, 9, 12, 15, -1, -1, -1, -1)
-              : _mm256_broadcastsi128_si256(
-                    _mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15));
-      const __m256i halves = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
-      _mm256_store_si256(
-          reinterpret_cast<__m256i*>(to),
-          _mm256_permutevar8x32_epi32(_mm256_shuffle_epi8(pixels, by_channel), halves));
-    }
-  }
-};
-
 /// The block's pixels: up to 16 bit of each in `first`, further bits in `more`.
 struct Pixels {
   __m256i first, more;
 };
 
-/// Samples channels in rows of `stride`, each kWindow bytes after the one before.
-template <Layout layout>
-[[gnu::always_inline]] inline Pixels sample(const std::uint8_t* from, std::ptrdiff_t stride,
-                                            const Places& places) {
-  constexpr int kFirst = info(layout).first, kEvery = info(layout).every;
+/// Samples a window of rows that are `stride` apart, or two.
+template <Layout layout, Kept kept>
+[[gnu::always_inline]] inline Pixels sample(const std::uint8_t* from, const std::uint8_t* beside,
+                                            std::ptrdiff_t stride, const Places& places) {
   constexpr int kSamples = info(layout).samples;
-  const auto rows = [&](int byte) {
-    return interpolate_rows(from + byte * kWindow, stride, places);
-  };
+  Rows rows[info(layout).out_bytes()];
+  interpolate_rows<layout, kept != Kept::All>(from, beside, stride, places, rows);
   if constexpr (info(layout).sample_bytes == 2) {
-    return {sample16(rows(0), rows(1), places.v), _mm256_setzero_si256()};
+    return {sample16(rows[0], rows[1], places.v), _mm256_setzero_si256()};
   } else {
-    const auto channel = [&](int k) { return sample8(rows(kFirst + k * kEvery), places.v); };
+    const auto channel = [&](int k) { return sample8(rows[k], places.v); };
     const auto pair = [&](int k) {
       return _mm256_or_si256(channel(k), _mm256_slli_epi16(channel(k + 1), 8));
     };
@@ -255,45 +178,94 @@ template <Layout layout>
   }
 }
 
-/// Number of adjacent blocks that make rows of 16 bytes, or of 12 if a pixel has three.
-constexpr int group_of(int out_bytes) { return out_bytes == 3 ? 1 : 4 / out_bytes; }
+/// Number of adjacent blocks whose rows are stored together.
+constexpr int group_of(int out_bytes) { return out_bytes == 4 ? 1 : out_bytes == 2 ? 2 : 4; }
 
-/// The rows of a group of blocks: 0 and 2, 1 and 3.
+/// The rows of a group of blocks, 0 and 2, 1 and 3, in parts of 16 bytes.
+template <int out_bytes>
 struct GroupRows {
-  __m256i even, odd;
+  static constexpr int kParts = out_bytes == 3 ? 3 : 1;
+  __m256i even[kParts], odd[kParts];
 };
 
+/// Joins pixels of four bytes, the last one unused, of four blocks.
+inline void join_threes(const __m256i (&blocks)[4], __m256i (&parts)[3]) {
+  const auto moved = [&](int k, __m128i order) {
+    return _mm256_shuffle_epi8(blocks[k], _mm256_broadcastsi128_si256(order));
+  };
+  constexpr char no = -1;
+  parts[0] = _mm256_or_si256(
+      moved(0, _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, no, no, no, no)),
+      moved(1, _mm_setr_epi8(no, no, no, no, no, no, no, no, no, no, no, no, 0, 1, 2, 4)));
+  parts[1] = _mm256_or_si256(
+      moved(1, _mm_setr_epi8(5, 6, 8, 9, 10, 12, 13, 14, no, no, no, no, no, no, no, no)),
+      moved(2, _mm_setr_epi8(no, no, no, no, no, no, no, no, 0, 1, 2, 4, 5, 6, 8, 9)));
+  parts[2] = _mm256_or_si256(
+      moved(2, _mm_setr_epi8(10, 12, 13, 14, no, no, no, no, no, no, no, no, no, no, no, no)),
+      moved(3, _mm_setr_epi8(no, no, no, no, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14)));
+}
+
 template <int out_bytes>
-GroupRows rows_of(const Pixels (&blocks)[group_of(out_bytes)]) {
+[[gnu::always_inline]] inline GroupRows<out_bytes> rows_of(
+    const Pixels (&blocks)[group_of(out_bytes)]) {
   if constexpr (out_bytes == 1) {
     const auto four = [](const Pixels& left, const Pixels& right) {
       return _mm256_castsi256_ps(_mm256_packus_epi16(left.first, right.first));
     };
     const __m256 left = four(blocks[0], blocks[1]), right = four(blocks[2], blocks[3]);
-    return {_mm256_castps_si256(_mm256_shuffle_ps(left, right, 0x88)),
-            _mm256_castps_si256(_mm256_shuffle_ps(left, right, 0xdd))};
+    return {{_mm256_castps_si256(_mm256_shuffle_ps(left, right, 0x88))},
+            {_mm256_castps_si256(_mm256_shuffle_ps(left, right, 0xdd))}};
   } else if constexpr (out_bytes == 2) {
-    return {_mm256_unpacklo_epi64(blocks[0].first, blocks[1].first),
-            _mm256_unpackhi_epi64(blocks[0].first, blocks[1].first)};
+    return {{_mm256_unpacklo_epi64(blocks[0].first, blocks[1].first)},
+            {_mm256_unpackhi_epi64(blocks[0].first, blocks[1].first)}};
   } else {
-    const __m256i even = _mm256_unpacklo_epi16(blocks[0].first, blocks[0].more);
-    const __m256i odd = _mm256_unpackhi_epi16(blocks[0].first, blocks[0].more);
-    if constexpr (out_bytes == 4) return {even, odd};
-    const __m256i three = _mm256_broadcastsi128_si256(
-        _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1));
-    return {_mm256_shuffle_epi8(even, three), _mm256_shuffle_epi8(odd, three)};
+    constexpr int kBlocks = group_of(out_bytes);
+    __m256i even[kBlocks], odd[kBlocks];
+#pragma GCC unroll 4
+    for (int k = 0; k < kBlocks; ++k) {
+      even[k] = _mm256_unpacklo_epi16(blocks[k].first, blocks[k].more);
+      odd[k] = _mm256_unpackhi_epi16(blocks[k].first, blocks[k].more);
+    }
+    if constexpr (out_bytes == 4) {
+      return {{even[0]}, {odd[0]}};
+    } else {
+      GroupRows<3> rows;
+      join_threes(even, rows.even);
+      join_threes(odd, rows.odd);
+      return rows;
+    }
   }
 }
 
 template <int bytes>
-void store_row(__m128i row, std::uint8_t* out) {
+void store_part(__m128i part, std::uint8_t* out) {
   if constexpr (bytes == 16) {
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), row);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), part);
   } else if constexpr (bytes == 4) {
-    _mm_storeu_si32(out, row);
+    _mm_storeu_si32(out, part);
   } else {
-    _mm_storeu_si64(out, row);
-    if constexpr (bytes == 12) _mm_storeu_si32(out + 8, _mm_srli_si128(row, 8));
+    _mm_storeu_si64(out, part);
+    if constexpr (bytes == 12) _mm_storeu_si32(out + 8, _mm_srli_si128(part, 8));
+  }
+}
+
+/// Stores `bytes` bytes of two rows, in as few stores as possible: many wait until the target's
+/// lines are in the cache.
+template <int bytes>
+[[gnu::always_inline]] inline void store_rows(const __m256i* parts, std::uint8_t* first,
+                                              std::uint8_t* second) {
+  if constexpr (bytes >= 32) {
+    const auto store = [](std::uint8_t* to, __m256i row) {
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), row);
+    };
+    store(first, _mm256_permute2x128_si256(parts[0], parts[1], 0x20));
+    store(second, _mm256_permute2x128_si256(parts[0], parts[1], 0x31));
+    if constexpr (bytes > 32) store_rows<bytes - 32>(parts + 2, first + 32, second + 32);
+  } else {
+    constexpr int kHere = std::min(bytes, 16);
+    store_part<kHere>(_mm256_castsi256_si128(parts[0]), first);
+    store_part<kHere>(_mm256_extracti128_si256(parts[0], 1), second);
+    if constexpr (bytes > 16) store_rows<bytes - 16>(parts + 1, first + 16, second + 16);
   }
 }
 
@@ -303,73 +275,112 @@ const std::uint8_t* begin(const TileJob& job, const AxisPair<std::int64_t>& wind
          (window.u >> 32) * info(layout).pixel_bytes;
 }
 
-/// Fills one row of blocks; block (0, y) has the lanes that u and v start from.
-template <Layout layout, int blocks_x>
-void fill_row(const TileJob& job, const BlockRow& row, const Shape& u, const Shape& v,
-              std::uint8_t* out) {
-  constexpr int kPixelBytes = info(layout).pixel_bytes, kOutBytes = info(layout).out_bytes();
-  constexpr int kGroup = group_of(kOutBytes), kCount = kGroup < blocks_x ? kGroup : blocks_x;
-  // All windows are loaded first, and the loop is not unrolled: else the compiler extracts the
-  // channels from vectors instead of reading them back, which takes longer.
-  [[maybe_unused]] Planar<kPixelBytes> planar[blocks_x];
-  if constexpr (kPixelBytes > 1) {
-#pragma GCC unroll 1
-    for (int x = 0; x < blocks_x; ++x) {
-      planar[x].fill(begin<layout>(job, row.windows[x]), job.source.stride);
-    }
+/// Block of a row of blocks.
+struct BlockAt {
+  const BlockRow& row;
+  int x;
+
+  template <Layout layout>
+  const std::uint8_t* window(const TileJob& job) const {
+    return begin<layout>(job, row.windows[x]);
   }
+  __m256i place_u() const { return each_place(&row.places[x].u); }
+  __m256i place_v() const { return each_place(&row.places[x].v); }
+
+ private:
+  static __m256i each_place(const std::int64_t* twice) {
+    return _mm256_broadcastd_epi32(_mm_loadu_si32(twice));
+  }
+};
+
+/// Makes a block from `first`; if not all of its pixels are kept, from `second` too.
+template <Layout layout, Kept kept>
+[[gnu::always_inline]] inline Pixels make_block(const TileJob& job, const BlockAt& first,
+                                                const BlockAt& second, __m256i lanes_u,
+                                                __m256i lanes_v) {
+  constexpr bool kOfTwo = kept != Kept::All;
+  const auto place = [](__m256i lower, __m256i upper) {
+    return kOfTwo ? _mm256_blend_epi32(lower, upper, 0xf0) : lower;
+  };
+  const Places places(_mm256_add_epi16(lanes_u, place(first.place_u(), second.place_u())),
+                      _mm256_add_epi16(lanes_v, place(first.place_v(), second.place_v())),
+                      Tables<info(layout).pixel_bytes, kOfTwo>::kByHalves);
+  Pixels pixels = sample<layout, kept>(first.window<layout>(job), second.window<layout>(job),
+                                       job.source.stride, places);
+  if constexpr (kept == Kept::EvenColumns) {
+    // Rows of two pixels from each half.
+    const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
+    pixels.first = _mm256_permutevar8x32_epi32(pixels.first, order);
+    pixels.more = _mm256_permutevar8x32_epi32(pixels.more, order);
+  }
+  return pixels;
+}
+
+/// Fills one row of blocks; block (0, y) has the lanes that u and v start from. If not all pixels
+/// are kept, blocks are made from pairs of blocks: two side by side, or this row's and the next
+/// one's.
+template <Layout layout, int blocks_x, Kept kept>
+void fill_row(const TileJob& job, const BlockRow* row, const Shape& u, const Shape& v,
+              std::uint8_t* out) {
+  constexpr int kOutBytes = info(layout).out_bytes(), kStep = kept == Kept::EvenColumns ? 2 : 1;
+  constexpr int kGroup = group_of(kOutBytes), kMade = blocks_x / kStep;
+  constexpr int kCount = kGroup < kMade ? kGroup : kMade;
+  constexpr int kBeside = kept == Kept::EvenColumns ? 1 : 0,
+                kBelow = kept == Kept::EvenRows ? 1 : 0;
   __m256i lanes_u = u.start, lanes_v = v.start;
 #pragma GCC unroll 1
-  for (int x = 0; x < blocks_x; x += kCount) {
+  for (int x = 0; x < kMade; x += kCount) {
     Pixels pixels[kGroup]{};
 #pragma GCC unroll 4
     for (int k = 0; k < kCount; ++k) {
-      const auto& place = row.places[x + k];
-      const Places places(
-          _mm256_add_epi16(lanes_u, _mm256_broadcastd_epi32(_mm_loadu_si32(&place.u))),
-          _mm256_add_epi16(lanes_v, _mm256_broadcastd_epi32(_mm_loadu_si32(&place.v))));
-      if constexpr (kPixelBytes > 1) {
-        pixels[k] = sample<layout>(planar[x + k].rows, Planar<kPixelBytes>::kPitch, places);
-      } else {
-        pixels[k] =
-            sample<layout>(begin<layout>(job, row.windows[x + k]), job.source.stride, places);
-      }
+      const int block = kStep * (x + k);
+      pixels[k] = make_block<layout, kept>(job, {row[0], block}, {row[kBelow], block + kBeside},
+                                           lanes_u, lanes_v);
       lanes_u = _mm256_add_epi16(lanes_u, u.along_x);
       lanes_v = _mm256_add_epi16(lanes_v, v.along_x);
     }
-    const GroupRows rows = rows_of<kOutBytes>(pixels);
+    const auto rows = rows_of<kOutBytes>(pixels);
     constexpr int kBytes = kCount * kBlock * kOutBytes;
-    store_row<kBytes>(_mm256_castsi256_si128(rows.even), out);
-    store_row<kBytes>(_mm256_castsi256_si128(rows.odd), out + job.target.stride);
-    store_row<kBytes>(_mm256_extracti128_si256(rows.even, 1), out + 2 * job.target.stride);
-    store_row<kBytes>(_mm256_extracti128_si256(rows.odd, 1), out + 3 * job.target.stride);
+    const std::ptrdiff_t stride = job.target.stride;
+    store_rows<kBytes>(rows.even, out, out + 2 * stride);
+    store_rows<kBytes>(rows.odd, out + stride, out + 3 * stride);
     out += kBytes;
   }
 }
 
-template <Layout layout, int blocks_x>
+template <Layout layout, int blocks_x, Kept kept>
 void fill_rows(const TileJob& job) {
   BlockRow rows[kMostRows];
   walk(job.map, rows);
   using Axes = AxisPair<std::int16_t>;
   const LaneShape& lanes = job.map.lanes;
-  Shape u(lanes, &Axes::u, lanes.offset.u), v(lanes, &Axes::v, lanes.offset.v);
+  Shape u(lanes, &Axes::u, lanes.offset.u, kept), v(lanes, &Axes::v, lanes.offset.v, kept);
   v.round_to_rows();
+  u.step_by_pairs(kept);
+  v.step_by_pairs(kept);
   std::uint8_t* out = job.target.data;
-  for (int y = 0; y < job.map.blocks_y; ++y) {
-    fill_row<layout, blocks_x>(job, rows[y], u, v, out);
+  constexpr int kStep = kept == Kept::EvenRows ? 2 : 1;
+  for (int y = 0; y < job.map.blocks_y; y += kStep) {
+    fill_row<layout, blocks_x, kept>(job, &rows[y], u, v, out);
     u.start = _mm256_add_epi16(u.start, u.along_y);
     v.start = _mm256_add_epi16(v.start, v.along_y);
     out += kBlock * job.target.stride;
   }
 }
 
-template <Layout layout>
+template <Layout layout, Kept kept = Kept::All>
 void fill_tile(const TileJob& job) {
-  if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks>(job);
-  if (job.map.blocks_x == 1) return fill_rows<layout, 1>(job);
-  fill_rows<layout, kMostBlocks / 2>(job);
+  if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks, kept>(job);
+  if constexpr (kept == Kept::All) {
+    if (job.map.blocks_x == 1) return fill_rows<layout, 1, kept>(job);
+  }
+  fill_rows<layout, kMostBlocks / 2, kept>(job);
 }
+
+template <Kept kept>
+constexpr auto kTiles = by_layout<kKernelLayouts>([]<Layout layout>() -> Kernel::Tile {
+  return fill_tile<layout, kept>;
+});
 
 using PointLanes [[gnu::vector_size(32)]] = std::uint32_t;
 
@@ -378,14 +389,17 @@ using PointLanes [[gnu::vector_size(32)]] = std::uint32_t;
 extern const Kernel kKernel;
 constexpr Kernel kKernel{
     .name = "avx2",
-    .tiles = by_layout<kKernelLayouts>(
-        []<Layout layout>() -> Kernel::Tile { return fill_tile<layout>; }),
+    .tiles = kTiles<Kept::All>,
     .locate = walk_places<PointLanes>,
     .points = kPointWalks,
-    .mix = mix_tiles,
+    .mix = mix_pairs,
     .mix_yuv420 = mix_yuv420_tiles,
     .look_up = look_up_words,
     .look_up_yuv420 = look_up_yuv420_planes,
+    .find_entries = find_entries,
+    .write_rgb = write_rgb,
+    .even_columns = kTiles<Kept::EvenColumns>,
+    .even_rows = kTiles<Kept::EvenRows>,
     .fetches_ahead = true,
 };
 
