@@ -7,21 +7,10 @@
 #include "app/alignment/alignment_state.h"
 #include "app/alignment/drift_correction.h"
 #include "app/alignment/figure_text.h"
+#include "app/alignment/work_bound.h"
 #include "app/log.h"
 
 namespace orbwatch::app {
-namespace {
-
-/// The entry that accepting a proposal adds.
-CalibrationEntry entry_of(const AlignmentProposal& proposal) {
-  CalibrationEntry entry;
-  entry.method = proposal.method;
-  entry.quality = proposal.quality;
-  entry.alignment.cameras.push_back(proposal.alignment);
-  return entry;
-}
-
-}  // namespace
 
 AlignmentDesk::AlignmentDesk(const AlignedSite& site, WatchedCameras& watch,
                              AcceptedAlignments& accepted, std::function<void()> restart,
@@ -218,7 +207,8 @@ std::string AlignmentDesk::add_step(std::size_t camera, AlignmentProposal propos
   std::vector<AlignmentProposal>& steps = desks_[camera].steps;
   const double work_sigma = site_.work_sigma(proposal.direction_sigma);
   if (signals::is_valid(work_sigma)) {
-    proposal.quality += ", " + figure_text("at the work piece", work_sigma, "mm");
+    proposal.quality += ", " + figure_text("at the work piece", work_sigma, "mm") + ", " +
+                        figure_text("below", work_bound(work_sigma), "mm in 19 of 20 alignments");
   }
   std::string said = "an alignment is proposed: " + proposal.method + ", " + proposal.quality +
                      "; accept_alignment puts it in force, with a restart";
@@ -419,11 +409,7 @@ void AlignmentDesk::report(std::array<CameraWatchStatus, kMaxCameras>& figures) 
 AlignmentReport AlignmentDesk::report(std::size_t camera) const {
   AlignmentReport report;
   if (!has(camera)) return report;
-  const auto state_of = [&](const optics::Rig& rig) {
-    const auto state = alignment_state(rig, site_.camera_of(rig, camera));
-    return state ? std::optional(*state) : std::nullopt;
-  };
-  std::optional<optics::Rig> proposed;
+  std::optional<optics::Rig> rig;
   std::optional<AlignmentProposal> step;
   {
     const std::lock_guard lock(mutex_);
@@ -437,28 +423,27 @@ AlignmentReport AlignmentDesk::report(std::size_t camera) const {
       report.share = wanted_->share;
     }
     if (!desk.steps.empty()) step = desk.steps.back();
-    if (const auto rig = proposed_rig(camera); step && rig) proposed = *rig;
+    if (const auto proposed = proposed_rig(camera); step && proposed) rig = *proposed;
   }
-  const optics::RigCamera& own = site_.rig_camera(camera);
-  report.width = own.width;
-  report.height = own.height;
+  report.width = site_.rig_camera(camera).width;
+  report.height = site_.rig_camera(camera).height;
   report.is_watched = watch_.is_watched(camera);
   report.points = finder_.points(camera);
-  report.in_force = state_of(site_.rig);
-  for (const CalibrationEntry& entry : site_.alignments) {
-    if (!report.in_force || camera_of(entry).camera != own.name) continue;
-    report.in_force->number = entry.number;
-    report.in_force->method = entry.method;
-    report.in_force->quality = entry.quality;
-  }
-  if (proposed) report.proposed = state_of(*proposed);
-  if (report.proposed) {
-    report.proposed->method = step->method;
-    report.proposed->quality = step->quality;
-    report.proposed->direction_sigma = step->direction_sigma;
-    report.proposed->work_sigma = site_.work_sigma(step->direction_sigma);
-  }
+  report.in_force = alignment_in_force(site_, camera);
+  if (rig) report.proposed = proposed_state(*step, *rig, camera);
   return report;
+}
+
+std::optional<CameraAlignmentState> AlignmentDesk::proposed_state(const AlignmentProposal& step,
+                                                                  const optics::Rig& rig,
+                                                                  std::size_t camera) const {
+  auto state = alignment_state(rig, site_.camera_of(rig, camera));
+  if (!state) return std::nullopt;
+  state->method = step.method;
+  state->quality = step.quality;
+  state->direction_sigma = step.direction_sigma;
+  state->work_sigma = site_.work_sigma(step.direction_sigma);
+  return std::move(*state);
 }
 
 std::optional<optics::Vec3> AlignmentDesk::direction(std::size_t camera,

@@ -141,6 +141,10 @@ class AlignmentDesk : public AlignmentSource {
   CommandResult put_in_force(std::size_t camera, const CalibrationEntry& entry);
   CommandResult refuse(std::size_t camera, const std::string& why, CommandResult result);
   bool is_new_refusal(std::size_t camera, const std::string& why);
+  /// The camera's state in `rig`, which the proposal `step` makes.
+  std::optional<CameraAlignmentState> proposed_state(const AlignmentProposal& step,
+                                                     const optics::Rig& rig,
+                                                     std::size_t camera) const;
   void correct_lasting_drifts();
   void correct_lasting_drift(std::size_t camera, hal::TimePoint now);
 

@@ -85,4 +85,18 @@ Result<CameraAlignmentState> alignment_state(const optics::Rig& rig,
   return state;
 }
 
+std::optional<CameraAlignmentState> alignment_in_force(const AlignedSite& site,
+                                                       std::size_t camera) {
+  const optics::RigCamera& own = site.rig_camera(camera);
+  auto state = alignment_state(site.rig, own);
+  if (!state) return std::nullopt;
+  for (const CalibrationEntry& entry : site.alignments) {
+    if (camera_of(entry).camera != own.name) continue;
+    state->number = entry.number;
+    state->method = entry.method;
+    state->quality = entry.quality;
+  }
+  return std::move(*state);
+}
+
 }  // namespace orbwatch::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/alignment/registration.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,13 @@
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
+namespace {
+
+/// Standard error, degrees, of the directions of the first camera, which a registered one has, too.
+/// It is that of a placement by seven points; accepted alignments do not record their own.
+constexpr double kReferenceSigma = 0.3;
+
+}  // namespace
 
 Result<align::SimultaneousPictures> simultaneous(std::span<const RecordedPicture> reference,
                                                  std::span<const RecordedPicture> camera,
@@ -60,13 +68,15 @@ Result<FoundRegistration> register_camera(const optics::Rig& rig,
   if (!found) return tl::unexpected(found.error());
   const align::Registration& best = found->registration;
   return registered_alignment(camera, sought, best).map([&](const CameraAlignment& alignment) {
-    const double sigma = align::direction_sigma(best);
+    const double relative = align::direction_sigma(best);
+    const double sigma = std::hypot(relative, kReferenceSigma);
     return FoundRegistration{
         *found,
         {alignment,
          "register by " + std::string(word_for(align::kRegistrationMethods, found->method)),
          figure_text("residual", best.residual, "deg rms") + ", " +
-             figure_text("sigma", sigma, "deg"),
+             figure_text("sigma", sigma, "deg") + ", " +
+             figure_text("of that", relative, "deg relative to " + reference.name),
          sigma}};
   });
 }

@@ -10,11 +10,12 @@ namespace orbwatch::app::cli {
 namespace {
 
 constexpr const char* kDriftUsage =
-    "Usage: orbwatch drift --rig RIG CAMERA=FOLDER [options]\n"
+    "Usage: orbwatch drift --rig RIG CAMERA=PATH [options]\n"
     "\n"
     "Says whether a camera or the ball has moved against the rig file: how far the ball's picture\n"
-    "moved, and by how much the directions of the camera's views are wrong for it. FOLDER holds\n"
-    "the camera's pictures, JPEG or PNG, in the order of their names.\n"
+    "moved, and by how much the directions of the camera's views are wrong for it. PATH is a\n"
+    "folder of the camera's pictures, JPEG or PNG, in the order of their names, or a recording\n"
+    "(.mcap) with pictures of the camera, which has their times.\n"
     "\n";
 
 constexpr const char* kDriftNotes =
@@ -45,10 +46,10 @@ struct DriftOptions {
 std::vector<Option> declare(DriftOptions& o) {
   return {
       {"rig", 0, "RIG", "the rig file", text_option(o.rig)},
-      {"rate", 0, "FPS", "pictures per second (default: 30)",
+      {"rate", 0, "FPS", "pictures per second of a folder (default: 30)",
        number_option("rate", o.sequence.rate)},
       {"reference", 0, "IMAGE",
-       "picture on which the rig's alignment was made\n(default: the first pictures of FOLDER)",
+       "picture on which the rig's alignment was made\n(default: the first pictures of PATH)",
        text_option(o.sequence.reference)},
       {"warning", 0, "DEG", "limit of the direction error (default: 0.3)",
        number_option("warning", o.limits.warning)},
@@ -61,14 +62,15 @@ std::vector<Option> declare(DriftOptions& o) {
 CliResult<std::string> drift(DriftOptions o, const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || equals + 1 == word.size()) {
-    return usage_error("\"" + word + "\" must be CAMERA=FOLDER");
+    return usage_error("\"" + word + "\" must be CAMERA=PATH");
   }
-  o.sequence.folder = word.substr(equals + 1);
+  o.sequence.source = word.substr(equals + 1);
+  o.sequence.camera = word.substr(0, equals);
   if (o.rig.empty()) return usage_error("--rig is missing");
   if (!(o.sequence.rate > 0)) return usage_error("--rate must be above 0");
   const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
-  const auto camera = find_camera(*rig, word.substr(0, equals));
+  const auto camera = find_camera(*rig, o.sequence.camera);
   if (!camera) return fail(o.rig.string() + ": " + camera.error().message);
   const auto subject = align::drift_subject(*rig, *camera);
   if (!subject) return fail(o.rig.string() + ": " + subject.error().message);
@@ -87,7 +89,7 @@ CliResult<std::string> drift_command(const Arguments& arguments) {
       {.usage = kDriftUsage, .options = declare(o), .takes_words = true, .notes = kDriftNotes},
       [&](const auto& words) -> CliResult<std::string> {
         if (words.size() == 1) return drift(o, words.front());
-        return usage_error("name one CAMERA=FOLDER");
+        return usage_error("name one CAMERA=PATH");
       });
 }
 

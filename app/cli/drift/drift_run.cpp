@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hal/replay/picture_decoder.h"
-#include "hal/replay/picture_folder.h"
+#include "hal/replay/picture_sequence.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -16,20 +16,20 @@ namespace fs = std::filesystem;
 using align::DriftLevel;
 using align::DriftMonitor;
 
-Error about(const fs::path& file, const Error& error, const hal::DecodedPicture& picture) {
-  return {file.string() + ": " + error.message + exif_note(picture)};
+Error about(const std::string& file, const Error& error, const hal::DecodedPicture& picture) {
+  return {file + ": " + error.message + exif_note(picture)};
 }
 
 Result<> refer_to(DriftMonitor& monitor, const fs::path& file) {
   const auto reference = hal::read_picture(file);
   if (!reference) return tl::unexpected(reference.error());
   return monitor.refer_to(reference->picture).map_error([&](const Error& error) {
-    return about(file, error, *reference);
+    return about(file.string(), error, *reference);
   });
 }
 
-void note(const align::DriftState& state, const fs::path& file, DriftRun& run) {
-  const DriftRun::Event event{run.frames++, file.filename().string()};
+void note(const align::DriftState& state, const std::string& name, DriftRun& run) {
+  const DriftRun::Event event{run.frames++, name};
   run.last = state;
   if (state.level == DriftLevel::NotMeasured) {
     ++run.not_measured[std::string(state.reason)];
@@ -40,28 +40,34 @@ void note(const align::DriftState& state, const fs::path& file, DriftRun& run) {
   if (state.level == DriftLevel::Alarm && !run.first_alarm) run.first_alarm = event;
 }
 
+/// Time of a picture since the first one.
+DriftMonitor::Time time_of(const hal::PictureSequence& pictures, std::size_t n, double rate) {
+  const std::chrono::duration<double> at_rate(static_cast<double>(n) / rate);
+  const auto recorded = pictures.time(n);
+  return recorded ? std::chrono::duration_cast<DriftMonitor::Time>(*recorded)
+                  : std::chrono::duration_cast<DriftMonitor::Time>(at_rate);
+}
+
 }  // namespace
 
 Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLimits& limits,
                        const DriftSequence& sequence, Progress& progress) {
   auto monitor = DriftMonitor::make(subject, limits);
   if (!monitor) return tl::unexpected(monitor.error());
-  const auto files = hal::pictures_in(sequence.folder);
-  if (!files) return tl::unexpected(files.error());
+  auto pictures = hal::PictureSequence::open(sequence.source, sequence.camera);
+  if (!pictures) return tl::unexpected(pictures.error());
   if (!sequence.reference.empty()) {
     const auto referred = refer_to(*monitor, sequence.reference);
     if (!referred) return tl::unexpected(referred.error());
   }
   DriftRun run;
-  for (const fs::path& file : *files) {
-    progress.count("watching", run.frames + 1, files->size(), "pictures");
-    const auto decoded = hal::read_picture(file);
+  for (std::size_t n = 0; n < pictures->size(); ++n) {
+    progress.count("watching", n + 1, pictures->size(), "pictures");
+    const auto decoded = pictures->read(n);
     if (!decoded) return tl::unexpected(decoded.error());
-    const std::chrono::duration<double> time(static_cast<double>(run.frames) / sequence.rate);
-    const auto state =
-        monitor->observe(decoded->picture, std::chrono::duration_cast<DriftMonitor::Time>(time));
-    if (!state) return tl::unexpected(about(file, state.error(), *decoded));
-    note(*state, file, run);
+    const auto state = monitor->observe(decoded->picture, time_of(*pictures, n, sequence.rate));
+    if (!state) return tl::unexpected(about(pictures->path(n), state.error(), *decoded));
+    note(*state, pictures->name(n), run);
   }
   return run;
 }

@@ -14,8 +14,9 @@ namespace orbwatch::app::cli {
 
 /// Pictures of one camera in the order in which they were taken.
 struct DriftSequence {
-  std::filesystem::path folder;
-  double rate = 30;                 ///< pictures per second
+  std::filesystem::path source;     ///< a folder, a picture or a recording
+  std::string camera;               ///< in a recording
+  double rate = 30;                 ///< pictures per second; a recording has their times
   std::filesystem::path reference;  ///< on which the alignment was made; empty: the first pictures
 };
 
@@ -25,7 +26,7 @@ struct DriftRun {
   std::size_t measured = 0;
   /// Number of the others, by reason.
   std::map<std::string, std::size_t> not_measured;
-  /// Numbers from 0; with its file's name.
+  /// Numbers from 0; with the picture's name, see PictureSequence.
   struct Event {
     std::size_t frame = 0;
     std::string file;
@@ -35,8 +36,8 @@ struct DriftRun {
   align::DriftState last;  ///< at the last picture; its motion at the last one that was measured
 };
 
-/// Watches the whole sequence: every JPEG and PNG of the folder, in natural order of their names.
-/// Errors: no pictures, one that cannot be read, another size, those of DriftMonitor.
+/// Watches the whole sequence, see hal::PictureSequence. Errors: no pictures, one that cannot be
+/// read, another size, those of DriftMonitor.
 Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLimits& limits,
                        const DriftSequence& sequence, Progress& progress);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,12 @@ struct NamedPictures {
   std::vector<Picture> views() const;
 };
 
-/// PATH is a picture, or a folder: its first kMostPictures pictures in natural order. Error: no
-/// NAME=PATH, no picture there, one that cannot be read or is of another size.
-CliResult<NamedPictures> read_named_pictures(const std::string& word);
+/// The pictures of two cameras. PATH is a picture, or a folder or recording: its first
+/// kMostPictures pictures in order; of one recording those of frame sets in which both have one.
+/// Errors: no NAME=PATH, no picture there, one that cannot be read or is of another size, no common
+/// frame set.
+CliResult<std::array<NamedPictures, 2>> read_named_pictures(
+    const std::array<std::string, 2>& words);
 
 inline constexpr std::size_t kMostPictures = 120;
 

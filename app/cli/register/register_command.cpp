@@ -21,9 +21,9 @@ constexpr const char* kRegisterUsage =
     "Usage: orbwatch register --rig RIG A=PATH B=PATH [options]\n"
     "\n"
     "Finds the rotation of camera B to camera A from what both see in the ball. A's alignment in\n"
-    "the rig stands, B's is found. PATH is a JPEG or PNG picture, or a folder of them: a sequence\n"
-    "whose n-th pictures of both cameras are of the same moment. The rig's scene corrects "
-    "parallax;\n"
+    "the rig stands, B's is found. PATH is a JPEG or PNG picture, a folder of them: a sequence\n"
+    "whose n-th pictures of both cameras are of the same moment, or a recording (.mcap) with\n"
+    "pictures of the camera, of which common frame sets count. The rig's scene corrects parallax;\n"
     "without one, features find the rotation all the same, gradients and light only in wide "
     "rooms.\n"
     "\n";
@@ -98,31 +98,30 @@ CliResult<std::string> register_cameras(const RegisterOptions& o, const std::str
   if (o.rig.empty()) return usage_error("--rig is missing");
   const auto rig = files::load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
-  const auto a = read_named_pictures(first);
-  if (!a) return tl::unexpected(a.error());
-  const auto b = read_named_pictures(second);
-  if (!b) return tl::unexpected(b.error());
-  if (a->name == b->name) return usage_error("camera " + a->name + " is given twice");
-  const auto reference = camera_of(*rig, *a);
+  const auto pictures = read_named_pictures({first, second});
+  if (!pictures) return tl::unexpected(pictures.error());
+  const auto& [a, b] = *pictures;
+  if (a.name == b.name) return usage_error("camera " + a.name + " is given twice");
+  const auto reference = camera_of(*rig, a);
   if (!reference) return tl::unexpected(reference.error());
-  const auto sought = camera_of(*rig, *b);
+  const auto sought = camera_of(*rig, b);
   if (!sought) return tl::unexpected(sought.error());
-  const auto settings = settings_for(o, *b);
+  const auto settings = settings_for(o, b);
   if (!settings) return tl::unexpected(settings.error());
   Progress progress;
   const align::WorkProgress shown([&](align::WorkStep step, double /*share*/) {
     progress.begin(std::string(operator_text(step)));
   });
   const auto found =
-      register_camera(*rig, *reference, *sought, {a->views(), b->views()}, *settings, shown);
+      register_camera(*rig, *reference, *sought, {a.views(), b.views()}, *settings, shown);
   progress.erase();
-  if (!found) return fail(b->name + " on " + a->name + ": " + found.error().message);
+  if (!found) return fail(b.name + " on " + a.name + ": " + found.error().message);
   if (!o.out.empty()) {
     const auto written =
         files::write_aligned_rig(o.rig, {.cameras = {found->proposal.alignment}}, o.out);
     if (!written) return tl::unexpected(written.error());
   }
-  const RegisteredCamera registered{a->name, b->name, found->found};
+  const RegisteredCamera registered{a.name, b.name, found->found};
   return o.json ? register_json(registered) : register_text(registered);
 }
 

@@ -83,7 +83,7 @@ double BallCrop::rho(double u, double v) const {
   return LimbDistance(outline).of({u - outline.centre.u, v - outline.centre.v});
 }
 
-Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline) {
+Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline, int halvings) {
   const bool is_larger = std::max(outline.rx, outline.ry) > picture.width + picture.height;
   const cv::Rect wanted = is_larger ? cv::Rect() : bounds(outline);
   const cv::Rect seen = wanted & cv::Rect(0, 0, picture.width, picture.height);
@@ -91,9 +91,11 @@ Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outlin
     return fail("the picture shows less than half of the ball; it must show most of it");
   }
   BallCrop crop;
-  luminance_of(picture, seen).convertTo(crop.brightness, CV_32F);
+  crop.brightness = luminance_of(picture, seen);
   crop.outline = outline;
   crop.outline.centre = {outline.centre.u - seen.x, outline.centre.v - seen.y};
+  for (int n = 0; n < halvings; ++n) crop = halved(crop);
+  crop.brightness.convertTo(crop.brightness, CV_32F);
   crop.full_scale = std::exp2(info(picture.format).bits) - 1;
   crop.noise = noise_of(crop.brightness);
   const std::string reason = bad_light(crop);

@@ -20,10 +20,12 @@ struct BallCrop {
   double rho(double u, double v) const;
 };
 
-/// Crops a picture of any format. `outline` must have been checked for the picture. Reentrant.
+/// Crops a picture of any format, and halves its sides so many times, each by the means of 2 x 2
+/// pixels in the picture's own depth. `outline` must have been checked for the picture. Reentrant.
 /// Error: the picture shows less than half of the ball's bounding box, or the light does not allow
 /// the ball to be judged: dark, or overexposed.
-Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline);
+Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline,
+                           int halvings = 0);
 
 /// The same crop at half the size: means of 2 x 2 pixels. Reentrant.
 BallCrop halved(const BallCrop& crop);

@@ -183,10 +183,11 @@ Blur in_full_size(const Blur& blur, int halvings) {
 
 using Candidates = std::function<std::vector<EdgeCandidate>(const BallCrop&)>;
 
-/// Blur from the finest picture in which it is narrow enough to be fitted.
-Result<Blur> blur_of(BallCrop crop, const Candidates& candidates) {
+/// Blur from the finest picture in which it is narrow enough to be fitted. `halvings`: those by
+/// which the crop is smaller than the picture.
+Result<Blur> blur_of(BallCrop crop, const Candidates& candidates, int halvings = 0) {
   std::optional<Blur> widest;
-  for (int halvings = 0;; ++halvings) {
+  for (;; ++halvings) {
     const std::vector<StepEdge> edges = fitted(crop, candidates(crop));
     if (edges.size() >= kFewestEdges) {
       const Blur blur = quantile(edges);
@@ -198,6 +199,14 @@ Result<Blur> blur_of(BallCrop crop, const Candidates& candidates) {
   }
   if (widest) return *widest;
   return fail("too few clear edges; more light or a richer scene is needed");
+}
+
+/// Halvings after which a blur of `least` px is still so wide that a smaller picture fits better.
+int halvings_for(double least, const optics::Outline& outline) {
+  double radius = std::min(outline.rx, outline.ry);
+  int halvings = 0;
+  for (; least >= 2 * kWide && radius >= 2 * kSmallestBall; least /= 2, radius /= 2) ++halvings;
+  return halvings;
 }
 
 Result<> check_limb(const Picture& picture, const optics::Outline& outline) {
@@ -214,10 +223,11 @@ Result<double> Focus::focused_on_ball() const {
   return std::sqrt(std::max(excess, 0.0));
 }
 
-Result<Blur> reflection_blur(const Picture& picture, const optics::Outline& outline) {
+Result<Blur> reflection_blur(const Picture& picture, const optics::Outline& outline, double least) {
+  const int halvings = halvings_for(least, outline);
   return check_limb(picture, outline)
-      .and_then([&] { return crop_ball(picture, outline); })
-      .and_then([](const BallCrop& crop) { return blur_of(crop, reflected_edges); });
+      .and_then([&] { return crop_ball(picture, outline, halvings); })
+      .and_then([&](const BallCrop& crop) { return blur_of(crop, reflected_edges, halvings); });
 }
 
 Result<Focus> measure_focus(const Picture& picture, const optics::Outline& outline) {

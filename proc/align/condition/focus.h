@@ -27,9 +27,11 @@ struct Focus {
 };
 
 /// The blur of the reflection alone: step edges in one picture, see measure_focus(), at a fraction
-/// of its cost. Reentrant; takes some milliseconds. Error: an outline that is not valid, or outside
-/// of the picture; the reason why it is not measured.
-Result<Blur> reflection_blur(const Picture& picture, const optics::Outline& outline);
+/// of its cost. `least`: a sigma, px, up to which a rough figure is enough; the larger, the smaller
+/// the picture that is looked at. Reentrant; takes some milliseconds. Error: an outline that is not
+/// valid, or outside of the picture; the reason why it is not measured.
+Result<Blur> reflection_blur(const Picture& picture, const optics::Outline& outline,
+                             double least = 0);
 
 /// Measures step edges in one picture of any format, so that contrast, exposure and noise affect
 /// only the error. Motion does not disturb it, unless it smears. `outline`: the ball's limb. The

@@ -15,9 +15,9 @@ constexpr double kBlurredPixels = 1.4, kBlurredShare = 0.009;
 }  // namespace
 
 bool is_out_of_focus(const Picture& picture, const optics::Outline& outline) {
-  const auto blur = reflection_blur(picture, outline);
-  return blur &&
-         blur->sigma > std::max(kBlurredPixels, kBlurredShare * optics::mean_radius(outline));
+  const double limit = std::max(kBlurredPixels, kBlurredShare * optics::mean_radius(outline));
+  const auto blur = reflection_blur(picture, outline, limit);
+  return blur && blur->sigma > limit;
 }
 
 }  // namespace orbwatch::align

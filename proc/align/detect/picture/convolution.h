@@ -40,8 +40,13 @@ constexpr std::size_t weight_count(const Layer& layer) {
   return static_cast<std::size_t>(layer.outputs * (1 + layer.inputs * layer.rays * layer.columns));
 }
 
-/// `weights`: a bias for each output, then the weights by input, ray, column and output. Reentrant.
-Field convolution(const Field& in, const Layer& layer, std::span<const float> weights);
+/// True on processors that compute eight columns at a time.
+bool has_vectors_of_eight();
+
+/// `weights`: a bias for each output, then the weights by input, ray, column and output.
+/// `by_eight`: computes eight columns at a time, with the same result. Reentrant.
+Field convolution(const Field& in, const Layer& layer, std::span<const float> weights,
+                  bool by_eight = has_vectors_of_eight());
 
 /// Sets values below 0 to 0.
 void rectify(Field& field);

@@ -92,6 +92,23 @@ TEST(Focus, OfTheReflectionAlone) {
   EXPECT_FALSE(reflection_blur(picture_of_mat(pixels), {{1500, 150}, 130, 130, 0}));
 }
 
+TEST(Focus, OfAWideBlurIsTheSameFromASmallerPicture) {
+  // A ball as large as one in focus that was enlarged eight times.
+  constexpr double kScale = 8;
+  const double centre_u = (kBlurredLimb.centre.u + 0.5) * kScale - 0.5;
+  const double centre_v = (kBlurredLimb.centre.v + 0.5) * kScale - 0.5;
+  const Outline limb{{centre_u, centre_v}, kBlurredLimb.rx * kScale, kBlurredLimb.ry * kScale, 0};
+  for (const double sigma : {0.6, 1.2, 2.5}) {
+    cv::Mat large;
+    cv::resize(blurred(sigma), large, {}, kScale, kScale, cv::INTER_LINEAR);
+    const auto whole = reflection_blur(picture_of_mat(large), limb);
+    const auto rough = reflection_blur(picture_of_mat(large), limb, 4);
+    ASSERT_TRUE(whole && rough) << sigma;
+    EXPECT_GT(whole->sigma, 4) << sigma;
+    EXPECT_NEAR(rough->sigma, whole->sigma, 0.05 * whole->sigma) << sigma;
+  }
+}
+
 TEST(Focus, LooksAtNoEdgesThatAreOverexposed) {
   // The brightest patches are cut off: their edges are too sharp.
   const cv::Mat bright = blurred(1.2, 1.5);
