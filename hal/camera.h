@@ -52,6 +52,8 @@ struct StreamRequest {
   /// Frames in use at once (GenICam StreamBufferCountManual): 1..kMaxBuffers. A driver may make
   /// fewer.
   std::size_t buffers = kFreeRunningBuffers;
+  /// A camera that sends JPEG keeps the data of each frame beside its pixels: FrameBuffer::jpeg.
+  bool keeps_jpeg = false;
 };
 
 /// Scale that a camera states for its counts; a count of 0 is 0 K.
@@ -69,6 +71,7 @@ struct StreamFormat {
   double frame_rate = 0;
   double kelvin_per_count = 0;  ///< scale of a radiometric camera, once its controls are set
   double kelvin_offset = 0;     ///< temperature of its count 0, K
+  bool has_jpeg = false;        ///< its frames have FrameBuffer::jpeg
 };
 
 /// Counts of imperfect frames that a camera reported since start().

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "hal/clock.h"
 #include "proc/image/picture.h"
@@ -38,6 +39,9 @@ struct FrameMetadata {
   /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
   /// that it started. None: the camera runs freely.
   std::optional<std::uint64_t> trigger = std::nullopt;
+  /// Stamp of the frame set that a replayed frame was recorded in, ns of UTC since 1970; 0: it is
+  /// of no recording.
+  std::uint64_t recorded_set = 0;
   /// The exposure has every control that was set before this moment: see ControlDelay.
   TimePoint controls_as_of{};
   /// Name of a control whose stated value differs from the one that was set; static.
@@ -50,6 +54,9 @@ struct FrameMetadata {
 /// belongs to the camera's pool and returns to it with the last Frame.
 struct FrameBuffer {
   Picture picture;
+  /// The data that the picture was decoded from, as the camera sent it, if
+  /// StreamRequest::keeps_jpeg requested it; else empty. Lives as long as the frame.
+  std::span<const std::byte> jpeg;
   FrameMetadata metadata;
   std::byte* memory =
       nullptr;  ///< start of the buffer behind the picture; null where only a device writes

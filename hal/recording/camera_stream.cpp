@@ -98,4 +98,14 @@ Result<> read_metadata(const mcap::StringMap& metadata, StreamFormat& format) {
   return entries.result;
 }
 
+std::optional<int> jpeg_quality_in(const mcap::StringMap& metadata) {
+  const auto found = std::ranges::find(metadata, kJpegQuality, &mcap::StringMap::value_type::first);
+  if (found == metadata.end()) return std::nullopt;
+  const char* const end = found->second.data() + found->second.size();
+  int quality = 0;
+  const auto [stop, error] = std::from_chars(found->second.data(), end, quality);
+  const bool is_right = error == std::errc() && stop == end && quality >= 1 && quality <= 100;
+  return is_right ? std::optional(quality) : std::nullopt;
+}
+
 }  // namespace orbwatch::hal::recording

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string_view>
+
 #include "hal/camera.h"
 #include "hal/mcap/record.h"
 #include "proc/image/result.h"
@@ -15,5 +18,12 @@ mcap::StringMap metadata_of(const StreamFormat& format);
 /// The same from a channel of any origin; without an entry, a member of `format` stays as it is.
 /// Entries with other names are ignored. Errors: a value that the entry cannot have. Reentrant.
 Result<> read_metadata(const mcap::StringMap& metadata, StreamFormat& format);
+
+/// Entry with the quality of JPEG that a recorder coded.
+inline constexpr std::string_view kJpegQuality = "jpeg_quality";
+
+/// Quality, 1 to 100, in a channel's metadata of any origin; nullopt: none is stated, since
+/// pictures are lossless, or JPEG data is what a camera sent. Reentrant.
+std::optional<int> jpeg_quality_in(const mcap::StringMap& metadata);
 
 }  // namespace orbwatch::hal::recording

@@ -75,6 +75,8 @@ struct CompressedImage {
 /// Values of CompressedImage::format for JPEG, as defined by ROS' image_transport.
 inline constexpr std::string_view kColourJpeg = "rgb8; jpeg compressed bgr8",
                                   kGreyJpeg = "mono8; jpeg compressed mono8";
+/// Format of JPEG data that a camera sent, of any colours.
+inline constexpr std::string_view kReceivedJpeg = "jpeg";
 
 /// sensor_msgs/msg/RegionOfInterest.
 struct RegionOfInterest {

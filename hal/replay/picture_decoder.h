@@ -15,7 +15,8 @@ namespace orbwatch::hal {
 
 /// A picture that owns its pixels.
 struct DecodedPicture {
-  Picture picture;  ///< Grey, Y16, Rgb or Rgb16, rows without padding
+  /// Grey, Y16, Rgb or Rgb16, of a recording any format; rows without padding.
+  Picture picture;
   std::unique_ptr<std::byte[]> storage;
   bool is_flawed = false;  ///< see JpegDecoder::is_flawed()
   bool is_turned = false;  ///< EXIF orientation exchanged width and height

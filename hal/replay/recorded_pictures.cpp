@@ -34,6 +34,7 @@ std::optional<RecordedMoment> RecordedPictures::moment(std::uint64_t number) con
   RecordedMoment moment;
   moment.offset = nanoseconds(static_cast<std::int64_t>(exposure.start - index.time.begin)) +
                   static_cast<std::int64_t>(round) * length_of(index.time);
+  moment.set_time = exposure.set_time;
   const std::uint32_t last = exposures.back().sequence - first;  // modulo 2^32, as they wrap
   moment.sequence = (exposure.sequence - first) + round * (std::uint64_t{last} + 1);
   if (exposure.trigger) moment.trigger = *exposure.trigger + round * index.triggers;

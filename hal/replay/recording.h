@@ -18,6 +18,7 @@ struct RecordedMoment {
   std::chrono::nanoseconds offset{0};  ///< since the start of the recording
   std::uint64_t sequence = 0;          ///< see FrameMetadata
   std::optional<std::uint64_t> trigger = std::nullopt;
+  std::uint64_t set_time = 0;  ///< see FrameMetadata::recorded_set
 };
 
 /// Recorded pictures by number. Thread-bound.

@@ -118,8 +118,10 @@ std::uint64_t ReplayCamera::next(std::uint64_t number, Clock::duration elapsed) 
 bool ReplayCamera::expose(std::uint64_t number, TimePoint start, const std::stop_token& stop) {
   const RecordedMoment recorded = moment(number);
   const TimePoint due = start + recorded.offset;
-  const FrameMetadata metadata{
-      .sequence = recorded.sequence, .exposure_start = due, .trigger = recorded.trigger};
+  const FrameMetadata metadata{.sequence = recorded.sequence,
+                               .exposure_start = due,
+                               .trigger = recorded.trigger,
+                               .recorded_set = recorded.set_time};
   if (fails(script_, metadata)) return true;
   const auto buffer = pool_->acquire();
   if (!buffer) return true;  // lost: all buffers are in use

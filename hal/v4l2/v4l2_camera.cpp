@@ -37,10 +37,12 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   decoder_.reset();
   buffers_ = request.buffers;
   if (!negotiated_.is_zero_copy()) {
-    decoder_ = std::make_unique<FrameDecoder>(negotiated_, request.buffers);
+    decoder_ = std::make_unique<FrameDecoder>(negotiated_, request.buffers, request.keeps_jpeg);
     buffers_ = kDecodedDeviceBuffers;
   }
-  return negotiated_.stream;
+  StreamFormat format = negotiated_.stream;
+  format.has_jpeg = request.keeps_jpeg && negotiated_.coding.packing == Packing::Jpeg;
+  return format;
 }
 
 /// Checks that the settings are valid for any device.

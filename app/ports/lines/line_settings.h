@@ -11,10 +11,10 @@
 
 namespace orbwatch::app {
 
-enum class LineUse { TriggerIn, ProcessInput, TriggerOut, Strobe, ProcessOk, Alarm };
+enum class LineUse { TriggerIn, ProcessInput, TriggerOut, Strobe, ProcessOk, Alarm, Stop };
 
 constexpr bool is_input(LineUse use) {
-  return use == LineUse::TriggerIn || use == LineUse::ProcessInput;
+  return use == LineUse::TriggerIn || use == LineUse::ProcessInput || use == LineUse::Stop;
 }
 constexpr bool is_pulsed(LineUse use) {
   return use == LineUse::TriggerOut || use == LineUse::Strobe;
@@ -39,12 +39,17 @@ struct LineSettings {
   hal::PulseSettings pulse;        ///< its period is derived from the rate
   double toggle_rate = 0;          ///< toggles per second; 0: held
   hal::WatchdogSettings watchdog;  ///< its half-period is derived from the toggle rate
+  hal::Clock::duration hold = std::chrono::seconds(2);  ///< time until an active stop line counts
+  bool power_off = true;  ///< a stop by the line also powers the machine off
 };
 
-inline constexpr std::array kLineUses{
-    Word{"trigger_in", LineUse::TriggerIn},   Word{"process_input", LineUse::ProcessInput},
-    Word{"trigger_out", LineUse::TriggerOut}, Word{"strobe", LineUse::Strobe},
-    Word{"process_ok", LineUse::ProcessOk},   Word{"alarm", LineUse::Alarm}};
+inline constexpr std::array kLineUses{Word{"trigger_in", LineUse::TriggerIn},
+                                      Word{"process_input", LineUse::ProcessInput},
+                                      Word{"trigger_out", LineUse::TriggerOut},
+                                      Word{"strobe", LineUse::Strobe},
+                                      Word{"process_ok", LineUse::ProcessOk},
+                                      Word{"alarm", LineUse::Alarm},
+                                      Word{"stop", LineUse::Stop}};
 inline constexpr std::array kLineKinds{Word{"gpio", LineKind::Gpio},
                                        Word{"simulated", LineKind::Simulated}};
 inline constexpr std::array kLineBiases{
@@ -72,15 +77,28 @@ void visit_pulses(Visitor& v, LineSettings& line) {
             "a pulse must be shorter than the period of the rate");
 }
 
+/// Keys of stop.
+template <class Visitor>
+void visit_stop(Visitor& v, LineSettings& line) {
+  const bool is_stop = line.use == LineUse::Stop;
+  v.optional_if(is_stop, "stop", "hold_ms", line.hold, Milliseconds{Range::between(10, 600000)},
+                "Time for which the line must be active, for stop");
+  v.optional_if(is_stop, "stop", "power_off", line.power_off,
+                "The service also powers the machine off, for stop; else it stays stopped");
+}
+
 template <class Visitor>
 void visit(Visitor& v, LineSettings& line) {
   hal::LineAddress& address = line.wire.address;
   v.required("name", line.name, "Name by which cameras and other lines refer to it");
-  v.required("use", line.use, kLineUses,
-             "trigger_in: its edges trigger cameras and pulses; process_input: a state of the "
-             "machine; trigger_out, strobe: pulses; process_ok: active while the pipeline works; "
-             "alarm: active while there is no alarm and the appliance is neither degraded nor in "
-             "fault. The last two become inactive when the pipeline stops");
+  v.required(
+      "use", line.use, kLineUses,
+      "trigger_in: its edges trigger cameras and pulses; process_input: a state of the "
+      "machine; trigger_out, strobe: pulses; process_ok: active while the pipeline works; "
+      "alarm: active while there is no alarm and the appliance is neither degraded nor in "
+      "fault. These two become inactive when the pipeline stops. stop: an input, for example "
+      "of an uninterruptible supply, that ends orbwatchd in good order. It must have been "
+      "inactive once since the start");
   v.optional("back_end", line.back_end, kLineKinds,
              "gpio: a line of the kernel; simulated: an input and an output with the same "
              "line_name are connected");
@@ -103,6 +121,7 @@ void visit(Visitor& v, LineSettings& line) {
   v.optional_if(is_watchdog(line.use), watchdogs, "toggle_rate", line.toggle_rate,
                 Range::between(0, 1000),
                 "Toggle frequency in 1/s while active, for process_ok and alarm; 0: held");
+  visit_stop(v, line);
   v.require(address.name.empty() != address.chip.empty(), "line_name",
             "set either line_name, or chip and offset");
 }

@@ -108,7 +108,17 @@ void Lines::open_input(std::size_t index, const LineSettings& settings) {
                                           on_fault(index, settings.name), hal::Clock::now());
   thread_.watch(*line);
   if (settings.use == LineUse::ProcessInput) process_inputs_.push_back(line->state());
+  if (settings.use == LineUse::Stop) add_stop(settings, *line);
   inputs_.push_back({settings.name, std::move(line)});
+}
+
+void Lines::add_stop(const LineSettings& settings, hal::WatchedInput& line) {
+  auto& held = stops_.emplace_back(std::make_unique<hal::HeldInput>(
+      settings.hold, line.state(), [this, name = settings.name, power_off = settings.power_off] {
+        on_stop_line_(name, power_off);
+      }));
+  line.subscribe([held = held.get()](const hal::EdgeEvent& edge) { held->on_edge(edge); });
+  thread_.add(*held);
 }
 
 void Lines::open_output(std::size_t index, const LineSettings& settings) {

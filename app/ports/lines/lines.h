@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/model/command/command.h"
@@ -13,6 +15,7 @@
 #include "app/ports/lines/line_settings.h"
 #include "hal/camera.h"
 #include "hal/lines/frame_trigger.h"
+#include "hal/lines/held_input.h"
 #include "hal/lines/line_thread.h"
 #include "hal/lines/process_input.h"
 #include "hal/lines/pulse_output.h"
@@ -20,6 +23,9 @@
 #include "hal/lines/watchdog_output.h"
 
 namespace orbwatch::app {
+
+/// Stop that a line of use stop asks for. `line` is its name.
+using OnStopLine = std::function<void(const std::string& line, bool power_off)>;
 
 /// The configured lines at run time. As a sink it reports the pipeline's state on the lines
 /// process_ok and alarm. Its threads run from start to stop; edges before that are lost. Thread
@@ -51,6 +57,10 @@ class Lines : public Sink {
   /// line; Busy: its last pulse has not ended. On any thread; does not wait.
   CommandResult pulse(std::size_t output);
 
+  /// Receiver of the requests of stop lines, called on the line thread; must not wait. Before
+  /// start.
+  void on_stop_line(OnStopLine receiver) { on_stop_line_ = std::move(receiver); }
+
   /// Process inputs in the configuration's order.
   const std::vector<std::shared_ptr<const hal::ProcessInput>>& process_inputs() const {
     return process_inputs_;
@@ -72,6 +82,7 @@ class Lines : public Sink {
 
   void stop_threads();
   void open_input(std::size_t index, const LineSettings& settings);
+  void add_stop(const LineSettings& settings, hal::WatchedInput& line);
   void open_output(std::size_t index, const LineSettings& settings);
   void add_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
   void add_watchdog(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
@@ -95,8 +106,10 @@ class Lines : public Sink {
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;
   std::vector<std::unique_ptr<hal::WatchdogOutput>> alarms_;
   std::vector<hal::DigitalOutput*> outputs_;  ///< all outputs
-  std::mutex running_;                        ///< held while the threads start or stop
-  hal::LineThread thread_;                    ///< stops before the other members are destroyed
+  std::vector<std::unique_ptr<hal::HeldInput>> stops_;
+  OnStopLine on_stop_line_ = [](const std::string&, bool) {};
+  std::mutex running_;      ///< held while the threads start or stop
+  hal::LineThread thread_;  ///< stops before the other members are destroyed
 };
 
 }  // namespace orbwatch::app

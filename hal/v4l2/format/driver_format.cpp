@@ -25,6 +25,7 @@ ColourSpace colour_space_of(const DriverFormat& format) {
 DriverLayout driver_layout(const PixelCoding& coding, const DriverFormat& format) {
   DriverLayout layout;
   layout.memory_count = coding.memory_count;
+  layout.largest = format.memory[0].bytes;
   const std::size_t row = packed_row_bytes(coding, static_cast<int>(format.width));
   const std::size_t first_stride = std::max<std::size_t>(format.memory[0].stride, row);
   if (coding.packing != Packing::None) {

@@ -44,6 +44,7 @@ struct DriverLayout {
   std::array<Plane, kMaxPlanes> planes;
   std::size_t memory_count = 0;
   std::array<std::size_t, kMaxPlanes> needed{};  ///< bytes of a complete picture, by memory plane
+  std::size_t largest = 0;                       ///< most bytes of a frame in the first one
 };
 
 /// Layout of a coding in a format that the driver accepted. JPEG pictures have one plane without

@@ -69,23 +69,54 @@ void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int wi
   shift_to_8_bit(row, width, bits, samples);
 }
 
-FrameDecoder::FrameDecoder(const NegotiatedFormat& format, std::size_t buffers)
+FrameDecoder::FrameDecoder(const NegotiatedFormat& format, std::size_t buffers, bool keeps_jpeg)
     : format_(format),
-      pool_(make_frame_pool(format.stream.format, format.stream.width, format.stream.height,
-                            buffers)) {
+      buffers_(buffers),
+      keeps_jpeg_(keeps_jpeg && format.coding.packing == Packing::Jpeg) {
+  make_pool();
   if (format.coding.mosaic == Mosaic::None || format.stream.format != PixelFormat::Bgr) return;
   mosaic_.resize(static_cast<std::size_t>(format.stream.width) *
                  static_cast<std::size_t>(format.stream.height));
 }
 
+/// Frames of the pool before stay valid.
+void FrameDecoder::make_pool() {
+  if (keeps_jpeg_) kept_bytes_ = format_.layout.largest;
+  std::vector<std::unique_ptr<DecodedFrame>> frames;
+  for (std::size_t n = 0; n < buffers_; ++n) {
+    DecodedFrame& frame = *frames.emplace_back(std::make_unique<DecodedFrame>());
+    const StreamFormat& stream = format_.stream;
+    allocate_picture(frame, stream.format, stream.width, stream.height);
+    if (keeps_jpeg_) frame.received = std::make_unique_for_overwrite<std::byte[]>(kept_bytes_);
+  }
+  pool_.emplace(std::move(frames));
+}
+
+void FrameDecoder::follow(const NegotiatedFormat& format) {
+  format_ = format;
+  if (keeps_jpeg_ && format.layout.largest > kept_bytes_) make_pool();
+}
+
+Result<> FrameDecoder::keep(DecodedFrame& frame, std::span<const std::byte> jpeg) const {
+  if (jpeg.size() > kept_bytes_) {
+    return fail("a frame of " + std::to_string(jpeg.size()) + " bytes; the driver announced " +
+                std::to_string(kept_bytes_));
+  }
+  std::ranges::copy(jpeg, frame.received.get());
+  frame.jpeg = {frame.received.get(), jpeg.size()};
+  return {};
+}
+
 Result<std::shared_ptr<FrameBuffer>> FrameDecoder::decode(std::span<const std::byte> samples) {
-  auto frame = pool_.acquire();
+  auto frame = pool_->acquire();
   if (!frame) return frame;
   frame->picture.colour_space = format_.stream.colour_space;
   const auto target =
       MutablePicture::contiguous(format_.stream.format, format_.stream.width, format_.stream.height,
                                  frame->memory, frame->picture.planes[0].stride);
-  if (auto done = decode_into(target, samples); !done) return tl::unexpected(done.error());
+  auto done = decode_into(target, samples);
+  if (done && keeps_jpeg_) done = keep(*frame, samples);
+  if (!done) return tl::unexpected(done.error());
   return frame;
 }
 

@@ -148,25 +148,25 @@ void ResendingProxy::on_stream(Bytes packet) {
     });
   }
   kept_[{frame, id}] = {packet.begin(), packet.end()};
-  send_or_lose(packet);
+  if (send_or_lose(packet) || last_injured_ == frame) return;
+  last_injured_ = frame;
+  ++injured_;
 }
 
 void ResendingProxy::resend(Bytes request) {
   const auto frame = static_cast<std::uint16_t>(take(request, kHeader + 2, 2));
   const std::uint32_t last = take(request, kHeader + 9, 3);
   for (std::uint32_t id = take(request, kHeader + 5, 3); id <= last; ++id) {
-    ++asked_;
     const auto kept = kept_.find({frame, id});
     if (kept != kept_.end()) send_or_lose(kept->second);
   }
 }
 
-void ResendingProxy::send_or_lose(std::span<const std::byte> packet) {
-  if (loses_(random_)) {
-    ++lost_;
-    return;
-  }
+/// False: the packet is lost.
+bool ResendingProxy::send_or_lose(std::span<const std::byte> packet) {
+  if (loses_(random_)) return false;
   ::sendto(stream_.get(), packet.data(), packet.size(), 0, generic(sink_), sizeof(sink_));
+  return true;
 }
 
 }  // namespace orbwatch::tests

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -31,8 +32,8 @@ class ResendingProxy {
   ResendingProxy& operator=(const ResendingProxy&) = delete;
   ~ResendingProxy();
 
-  int lost() const { return lost_; }    ///< lost packets, including resent ones
-  int asked() const { return asked_; }  ///< packets that the client requested again
+  /// Frames of which at least one packet was lost at first.
+  int injured() const { return injured_; }
 
  private:
   using Bytes = std::span<std::byte>;
@@ -45,7 +46,7 @@ class ResendingProxy {
   void on_stream(Bytes packet);
   void redirect(std::uint32_t address, Bytes value);
   void resend(Bytes request);
-  void send_or_lose(std::span<const std::byte> packet);
+  bool send_or_lose(std::span<const std::byte> packet);
 
   std::bernoulli_distribution loses_;
   std::mt19937 random_{11};
@@ -57,8 +58,8 @@ class ResendingProxy {
   sockaddr_in sink_{};    ///< destination of the stream that the client set
   bool asked_capabilities_ = false;
   std::map<PacketId, std::vector<std::byte>> kept_;
-  std::atomic<int> lost_ = 0;
-  std::atomic<int> asked_ = 0;
+  std::optional<std::uint16_t> last_injured_;  ///< number of a frame
+  std::atomic<int> injured_ = 0;
   hal::EventFd end_;
   std::thread thread_;
 };

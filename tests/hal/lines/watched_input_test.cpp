@@ -113,6 +113,21 @@ TEST_F(WatchedInputTest, TheStateOfALineThatFailsIsNotKnown) {
   EXPECT_EQ(input->state()->active(), true) << "without an edge, too";
 }
 
+TEST_F(WatchedInputTest, CountsActiveEdgesOfShortPulsesToo) {
+  const auto input = open(Clock::duration(0));
+  for (int i = 0; i < 6; ++i) lines.drive("IN", i % 2 == 0, at(i));
+  input->read(at(6));
+  EXPECT_EQ(input->state()->active(), false);
+  EXPECT_EQ(input->state()->edges(), 3U);
+  lines.fail_with("IN", LineFault::ReadError);
+  input->read(at(7));
+  lines.drive("IN", true, at(8));
+  lines.fail_with("IN", LineFault::None);
+  input->run(input->due());
+  EXPECT_EQ(input->state()->active(), true);
+  EXPECT_EQ(input->state()->edges(), 3U) << "an input that becomes known is no edge";
+}
+
 TEST_F(WatchedInputTest, ALineThatGoesIsReportedOnceAndOpenedAgain) {
   const auto input = open(Clock::duration(0));
   lines.fail_with("IN", LineFault::Gone);

@@ -55,5 +55,14 @@ TEST(CameraStream, WrongValuesAreRefused) {
   EXPECT_EQ(format.frame_rate, 25) << "all or nothing";
 }
 
+TEST(CameraStream, TheQualityOfCodedJpegIsOneToHundred) {
+  const std::string key(kJpegQuality);
+  EXPECT_EQ(jpeg_quality_in({}), std::nullopt);
+  EXPECT_EQ(jpeg_quality_in({{"frame_rate", "30"}, {key, "85"}}), 85);
+  for (const char* wrong : {"", "0", "101", "90 ", "9e1", "99999999999999"}) {
+    EXPECT_EQ(jpeg_quality_in({{key, wrong}}), std::nullopt) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::hal::recording

@@ -311,16 +311,18 @@ TEST(ReplayCamera, LosesFramesWhenAllAreHeldAndComesBack) {
   camera.stop();
 }
 
+constexpr std::uint64_t kRecordingBegin = 1'700'000'000'000'000'000;
+
 /// Writes a recording of 8x6 pictures with the sequence 5, 6, 8, 9 of which each has its value;
 /// those of "west" are exposed 2 ms later. The second frame set has trigger 70, the last 72.
 void write_recording(const std::filesystem::path& path) {
-  constexpr std::uint64_t kBegin = 1'700'000'000'000'000'000, kMillisecond = 1'000'000;
+  constexpr std::uint64_t kMillisecond = 1'000'000;
   tests::PictureFile file(path);
   const StreamFormat format{PixelFormat::Y16, {}, 8, 6, 25};
   tests::CameraTopics east(file, "east", format), west(file, "west", format);
   const auto states = file.add("/orbwatch/process_state", recording::SetNumbers::kType);
   for (const std::uint32_t k : {0U, 1U, 3U, 4U}) {
-    const std::uint64_t time = kBegin + k * 10 * kMillisecond;
+    const std::uint64_t time = kRecordingBegin + k * 10 * kMillisecond;
     std::vector<std::uint16_t> samples(48, static_cast<std::uint16_t>(value_of(k)));
     const auto picture =
         picture_of(PixelFormat::Y16, ImageView<std::uint16_t>{samples.data(), 8, 6, 1, 8});
@@ -354,6 +356,7 @@ TEST(ReplayCamera, PlaysARecordingAtItsMoments) {
     const std::size_t picture = k % 4, round = k / 4;
     EXPECT_EQ(listener.values()[k], value_of(numbers[picture]));
     EXPECT_EQ(frames[k].sequence, numbers[picture] + round * 5);
+    EXPECT_EQ(frames[k].recorded_set, kRecordingBegin + numbers[picture] * 10'000'000);
     EXPECT_EQ(frames[k].exposure_start - frames[0].exposure_start,
               moments[picture] + static_cast<int>(round) * length);
     const auto trigger = triggers[picture];

@@ -98,6 +98,16 @@ int request_buffers(State& fake, v4l2_requestbuffers& request) {
   return 0;
 }
 
+/// Fills the buffer; returns the bytes of the frame.
+std::uint32_t fill(const State& fake, void* buffer) {
+  if (fake.device.draw != nullptr) {
+    fake.device.draw({static_cast<std::uint16_t*>(buffer), fake.bytes() / 2}, fake.width);
+    return fake.bytes();
+  }
+  std::memcpy(buffer, fake.device.jpeg.data(), fake.device.jpeg.size());
+  return static_cast<std::uint32_t>(fake.device.jpeg.size());
+}
+
 int dequeue(State& fake, int file, v4l2_buffer& buffer) {
   std::uint64_t ticks = 0;
   if (!fake.streams || ::read(file, &ticks, sizeof ticks) != sizeof ticks || fake.queued.empty()) {
@@ -105,11 +115,11 @@ int dequeue(State& fake, int file, v4l2_buffer& buffer) {
   }
   const std::uint32_t index = fake.queued.front();
   fake.queued.pop_front();
-  fake.device.draw({static_cast<std::uint16_t*>(fake.memory[index]), fake.bytes() / 2}, fake.width);
+  const std::uint32_t size = fill(fake, fake.memory[index]);
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   buffer.index = index;
-  buffer.bytesused = fake.bytes();
+  buffer.bytesused = size;
   buffer.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   buffer.timestamp = {now.tv_sec, now.tv_nsec / 1000};
   buffer.sequence = fake.sequence++;

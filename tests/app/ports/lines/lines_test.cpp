@@ -121,6 +121,29 @@ TEST(MissingLines, AreFaultsUntilTheyCome) {
   lines.stop();
 }
 
+TEST(StopLine, AsksWhenItIsHeldActive) {
+  for (const bool power_off : {true, false}) {
+    LineSettings supply = line("supply", LineUse::Stop, "UPS");
+    supply.hold = std::chrono::milliseconds(10);
+    supply.power_off = power_off;
+    Lines lines({supply, line("ok", LineUse::ProcessOk, "UPS")});
+    std::atomic<int> requests = 0;
+    lines.on_stop_line([&](const std::string& name, bool powers_off) {
+      EXPECT_EQ(name, "supply");
+      EXPECT_EQ(powers_off, power_off);
+      ++requests;
+      requests.notify_all();
+    });
+    ASSERT_TRUE(lines.start());
+    Status status;
+    status.state = SystemState::Running;
+    lines.accept(status);
+    requests.wait(0);
+    lines.stop();
+    EXPECT_EQ(requests, 1);
+  }
+}
+
 /// A camera that does not answer its trigger until the test permits it.
 class SlowCamera : public hal::Camera {
  public:

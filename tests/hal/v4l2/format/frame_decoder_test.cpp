@@ -2,7 +2,10 @@
 #include "hal/v4l2/format/frame_decoder.h"
 
 #include <gtest/gtest.h>
+#include <turbojpeg.h>
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 namespace orbwatch::hal {
@@ -35,6 +38,21 @@ std::vector<std::byte> packed_mosaic(std::size_t stride) {
     }
   }
   return memory;
+}
+
+/// JPEG picture of that size.
+std::vector<std::byte> grey_jpeg() {
+  const std::vector<unsigned char> grey(std::size_t{kWidth} * kHeight, 100);
+  tjhandle encoder = tjInitCompress();
+  unsigned char* file = nullptr;
+  unsigned long size = 0;
+  tjCompress2(encoder, grey.data(), kWidth, 0, kHeight, TJPF_GRAY, &file, &size, TJSAMP_GRAY, 90,
+              0);
+  const auto* const first = reinterpret_cast<const std::byte*>(file);
+  std::vector<std::byte> jpeg(first, first + size);
+  tjFree(file);
+  tjDestroy(encoder);
+  return jpeg;
 }
 
 TEST(FrameDecoder, UnpacksAMosaicThatStaysOne) {
@@ -88,6 +106,23 @@ TEST(FrameDecoder, GivesTheBufferOfADamagedPictureBack) {
   for (std::size_t n = 0; n < 2 * kFreeRunningBuffers; ++n) {
     EXPECT_FALSE(decoder.decode(garbage)) << "an error, not a lack of buffers";
   }
+}
+
+TEST(FrameDecoder, AJpegPictureLargerThanAnnouncedIsRefusedWhereItsDataIsKept) {
+  auto small = format(V4L2_PIX_FMT_MJPEG, true, 0);
+  const auto jpeg = grey_jpeg();
+  small.layout.largest = jpeg.size() - 1;
+  FrameDecoder decoder(small, 1, true);
+  const auto refused = decoder.decode(jpeg);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("the driver announced"), std::string::npos);
+  auto larger = small;
+  larger.layout.largest = jpeg.size();
+  decoder.follow(larger);
+  const auto frame = decoder.decode(jpeg);
+  ASSERT_TRUE(frame && *frame);
+  EXPECT_TRUE(std::ranges::equal((*frame)->jpeg, jpeg));
+  EXPECT_TRUE(FrameDecoder(small, 1).decode(jpeg)) << "nothing is kept";
 }
 
 TEST(NegotiatedFormat, HandsOnWhatThePipelineReads) {
