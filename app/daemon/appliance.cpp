@@ -22,12 +22,18 @@
 namespace orbwatch::app::daemon {
 namespace {
 
+/// Folder whose disk is monitored: that of the recorder, else of snapshots; empty: neither.
+std::filesystem::path recording_folder(const files::Configuration& configuration) {
+  const auto& recorder = std::get<RecorderSettings>(configuration.sinks);
+  if (!recorder.folder.empty()) return recorder.folder;
+  return std::get<SnapshotSettings>(configuration.sinks).folder;
+}
+
 /// Reads the board's health and whether commands are recorded.
 std::function<Health()> health_of(const files::Configuration& configuration,
                                   std::shared_ptr<const CommandRecord> record) {
   HealthSources sources;
-  const auto& snapshot = std::get<SnapshotSettings>(configuration.sinks);
-  if (!snapshot.folder.empty()) sources.disk = snapshot.folder;
+  if (const auto folder = recording_folder(configuration); !folder.empty()) sources.disk = folder;
   return [record = std::move(record), board = std::make_shared<BoardHealth>(sources)] {
     Health read = board->read();
     read.commands_recorded = record->is_kept() ? 1 : 0;
@@ -107,6 +113,11 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
   if (!plan) return tl::unexpected(plan.error());
   add_cameras(*plan, std::move(opened), site, *all.lines_);
   all.follow_machine(*plan, std::move(*simulated));
+  if (site.site.machine.source == MachineSource::Recording) {
+    auto recording = replayed_recording(site);
+    if (!recording) return tl::unexpected(recording.error());
+    all.follow_recording(*plan, std::move(*recording));
+  }
   plan->background = all.background_;
   // It must not delay the pictures that somebody waits for.
   all.watch_.emplace(all.aligned_, site.state_folder, hal::SharedThreads::alone("watch"));
@@ -136,12 +147,20 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
 void Appliance::follow_machine(pipeline::PipelinePlan& plan,
                                std::shared_ptr<const simulation::Machine> simulated) {
   const MachineSource source = site_.site.machine.source;
-  if (source == MachineSource::None) return;
+  if (source == MachineSource::None || source == MachineSource::Recording) return;
   plan.machine = [this](hal::TimePoint now, const hal::FrameSet* set) -> const MachineStatus& {
     return set ? machine_.follow(set->stamp, set->trigger) : machine_.keep(now);
   };
   if (source != MachineSource::Simulation) return;
   controller_.emplace(std::move(simulated), machine_.path().handler);
+}
+
+void Appliance::follow_recording(pipeline::PipelinePlan& plan, std::filesystem::path recording) {
+  recorded_machine_ =
+      std::make_unique<RecordedMachine>(std::move(recording), site_.site.machine.timeout);
+  plan.machine = [this](hal::TimePoint now, const hal::FrameSet* set) -> const MachineStatus& {
+    return set ? recorded_machine_->follow(*set) : recorded_machine_->keep(now);
+  };
 }
 
 /// The recipe as if it was commanded again. Measuring is stopped already.
@@ -170,6 +189,10 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   attempts_.add(
       "lines", [this] { return lines_->start(); }, now);
   interfaces_->start(attempts_, now);
+  if (recorded_machine_) {
+    attempts_.add(
+        "recorded machine", [this] { return recorded_machine_->load(); }, now);
+  }
   health_.start();
   if (controller_) controller_->start();
   alignment_->start();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "app/daemon/alignment_record.h"
 #include "app/daemon/dispatch.h"
 #include "app/daemon/process/attempts.h"
+#include "app/daemon/recorded_machine.h"
 #include "app/daemon/site/interfaces.h"
 #include "app/files/resolve.h"
 #include "app/health/health_sampler.h"
@@ -54,6 +56,9 @@ class Appliance {
   /// thread.
   void report_refused_configuration() { configuration_refused_ = true; }
 
+  /// See Lines. Before start.
+  void on_stop_line(OnStopLine receiver) { lines_->on_stop_line(std::move(receiver)); }
+
   /// See assumptions(), for what the cameras delivered at the start.
   const std::vector<std::string>& assumptions() const { return assumptions_; }
 
@@ -68,6 +73,7 @@ class Appliance {
   std::array<CameraWatchStatus, kMaxCameras> watched() const;
   void follow_machine(pipeline::PipelinePlan& plan,
                       std::shared_ptr<const simulation::Machine> simulated);
+  void follow_recording(pipeline::PipelinePlan& plan, std::filesystem::path recording);
   void restore(const Selection& selection);
 
   const files::Resolved& site_;
@@ -77,6 +83,7 @@ class Appliance {
   const std::shared_ptr<hal::SharedThreads> background_;
   HealthSampler health_;
   machine::MachineFollower machine_;
+  std::unique_ptr<RecordedMachine> recorded_machine_;  ///< null: another source
   std::optional<pipeline::Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
   const std::shared_ptr<Lines> lines_;
   std::vector<std::string> assumptions_;

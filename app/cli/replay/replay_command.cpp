@@ -23,8 +23,12 @@ constexpr const char* kReplayNotes =
     "or a recipe is tried on what happened: everything else remains as recorded. No file of\n"
     "this computer takes the place of a recorded one.\n"
     "\n"
-    "Lossless pictures give the same measurements bit by bit on the same kernel; for JPEG, and\n"
-    "for other processors, set --tolerance. The first seconds after the start of an event are\n"
+    "Lossless pictures, and those of cameras that send JPEG, give the same measurements bit by\n"
+    "bit on the same kernel; for other processors set --tolerance. Of pictures that the recorder\n"
+    "coded as JPEG of quality 90 or more, differences that JPEG explains are listed with jpeg in\n"
+    "the last column, counted apart, and are no reason for exit status 1: such as 0.25 mm or 2 %\n"
+    "of a width, 2 % of full scale of a mean intensity. The state of an alarm has no such\n"
+    "tolerance. The first seconds after the start of an event are\n"
     "not compared, because rates and delays of alarms need what was before; see --settle.\n"
     "hot_spot_confidence needs longer: the usual size of the hot spot before the event is not\n"
     "known. Regions that were not measured when they were recorded are not compared; an alarm\n"
@@ -62,9 +66,12 @@ std::vector<Option> declare(ReplayOptions& o) {
 }
 
 std::string sentence_of(const ReplayFigures& figures) {
-  const ComparisonCounts& counts = figures.compared;
+  const daemon::ComparisonCounts& counts = figures.compared;
   std::string text = std::to_string(counts.differences) + " of " + std::to_string(counts.values) +
                      " values in " + std::to_string(counts.sets) + " frame sets differ";
+  if (counts.of_jpeg > 0) {
+    text += "; " + std::to_string(counts.of_jpeg) + " differ no more than JPEG explains";
+  }
   if (counts.not_measured > 0) {
     text += "; " + std::to_string(counts.not_measured) + " regions were not measured at the time";
   }

@@ -3,30 +3,23 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <ostream>
-#include <set>
 #include <string_view>
-#include <utility>
-#include <vector>
+#include <thread>
 
-#include "app/cli/replay/recorded_sets.h"
-#include "app/cli/replay/recorded_site.h"
-#include "app/cli/replay/set_meter.h"
-#include "app/ports/recorder/export/csv_text.h"
+#include "app/daemon/recordings/recorded_site.h"
+#include "app/model/csv_text.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::cli {
 namespace {
 
-using recorder::csv_field;
-using recorder::csv_number;
+using daemon::OtherRecipes;
 using recorder::ProcessState;
 
-constexpr std::string_view kMeasurementColumns =
-                               "utc_ns,frame_set,component,name,figure,value,unit\n",
-                           kDifferenceColumns =
-                               "utc_ns,frame_set,component,name,figure,recorded,computed\n";
+constexpr std::string_view
+    kMeasurementColumns = "utc_ns,frame_set,component,name,figure,value,unit\n",
+    kDifferenceColumns = "utc_ns,frame_set,component,name,figure,recorded,computed,explained_by\n";
 
 void write_measurements(std::ostream& csv, std::uint64_t utc, const ProcessState& state) {
   for (const recorder::ComponentFigures& component : state.components) {
@@ -39,20 +32,11 @@ void write_measurements(std::ostream& csv, std::uint64_t utc, const ProcessState
   }
 }
 
-void write_difference(std::ostream& csv, const Difference& difference) {
+void write_difference(std::ostream& csv, const daemon::Difference& difference) {
   csv << difference.utc << ',' << difference.frame_set << ',' << csv_field(difference.kind) << ','
       << csv_field(difference.name) << ',' << csv_field(difference.figure) << ','
-      << csv_number(difference.recorded) << ',' << csv_number(difference.computed) << '\n';
-}
-
-/// Value of a figure of the system when the set was recorded.
-double system_figure(const ProcessState& state, std::string_view name) {
-  for (const recorder::ComponentFigures& component : state.components) {
-    if (component.kind != "system") continue;
-    const auto found = std::ranges::find(component.figures, name, &recorder::Figure::name);
-    if (found != component.figures.end()) return found->value;
-  }
-  return std::nan("");
+      << csv_number(difference.recorded) << ',' << csv_number(difference.computed) << ','
+      << (difference.is_of_jpeg ? "jpeg" : "") << '\n';
 }
 
 /// Splits NUMBER=FILE; without a number the only recipe of the site.
@@ -75,32 +59,10 @@ Result<OtherRecipes> other_recipes(const std::string& word, const files::Resolve
   });
 }
 
-Result<files::Resolved> configuration_of(const ReplaySettings& settings) {
-  auto reader = hal::mcap::Reader::open(settings.recording);
-  if (!reader) return fail(reader.error().message);
-  auto site = recorded_site(settings.recording, *reader);
-  if (!site || settings.recipe.empty()) return site;
-  const auto others = other_recipes(settings.recipe, *site);
-  if (!others) return tl::unexpected(others.error());
-  return recorded_site(settings.recording, *reader, *others);
-}
+std::size_t other_cores() { return std::max(1U, std::thread::hardware_concurrency()) - 1; }
 
-Result<RecordedSets> sets_of(const ReplaySettings& settings, const files::Resolved& site) {
-  std::vector<hal::SyncPolicy> policies;
-  for (const auto& camera : site.site.cameras) policies.push_back(camera.sync);
-  return RecordedSets::open(settings.recording, site.names.cameras, policies);
-}
-
-/// Computed state of a set, as the recorder would have it.
-ProcessState state_of(const Status& status, const files::Resolved& site, const RecordedSet& set) {
-  const std::chrono::system_clock::time_point utc{std::chrono::nanoseconds(set.utc)};
-  return recorder::process_state_of({status, site.names, status.stamp, utc});
-}
-
-/// First stamp that is compared.
-std::uint64_t comparison_begin(const ReplaySettings& settings, const RecordedSet& first) {
-  const double settle = settings.settle.value_or(first.state.frame_set <= 1 ? 0 : kSettle);
-  return first.utc + static_cast<std::uint64_t>(settle * 1e9);
+daemon::RecipeChoice choice_of(const std::string& word) {
+  return [&word](const files::Resolved& site) { return other_recipes(word, site); };
 }
 
 }  // namespace
@@ -108,40 +70,31 @@ std::uint64_t comparison_begin(const ReplaySettings& settings, const RecordedSet
 Result<ReplayFigures> run_replay(const ReplaySettings& settings, std::ostream& csv,
                                  Progress& progress) {
   progress.begin("reading the recording");
-  const auto site = configuration_of(settings);
-  if (!site) return tl::unexpected(site.error());
-  auto sets = sets_of(settings, *site);
-  if (!sets) return tl::unexpected(sets.error());
-  auto meter = SetMeter::make(*site, sets->formats());
-  if (!meter) return tl::unexpected(meter.error());
-  Comparison comparison(settings.tolerance, [&csv](const Difference& difference) {
-    write_difference(csv, difference);
-  });
+  auto replay = daemon::Replay::open(settings.recording, choice_of(settings.recipe), other_cores());
+  if (!replay) return tl::unexpected(replay.error());
+  daemon::Comparison comparison(
+      settings.tolerance, replay->jpeg_regions(),
+      [&csv](const daemon::Difference& difference) { write_difference(csv, difference); });
   ReplayFigures figures;
   std::uint64_t compared_from = 0;
   progress.begin("measuring");
   while (true) {
-    const auto set = sets->next();
+    const auto set = replay->next();
     if (!set) return tl::unexpected(set.error());
     if (!*set) break;
-    const RecordedSet& recorded = **set;
-    const bool is_active = system_figure(recorded.state, "process_active") > 0;
-    const auto status =
-        meter->measure(recorded.frames, recorded.state.recipe, is_active, recorded.computed);
-    if (!status) return tl::unexpected(status.error());
-    const ProcessState computed = state_of(**status, *site, recorded);
+    const auto& [utc, recorded, computed] = **set;
     if (figures.sets++ == 0) {
-      compared_from = comparison_begin(settings, recorded);
+      compared_from = comparison_begin(**set, settings.settle);
       csv << (settings.compares ? kDifferenceColumns : kMeasurementColumns);
     }
     if (!settings.compares) {
-      write_measurements(csv, recorded.utc, computed);
-    } else if (recorded.utc >= compared_from) {
-      comparison.add(recorded.utc, recorded.state, computed);
+      write_measurements(csv, utc, computed);
+    } else if (utc >= compared_from) {
+      comparison.add(utc, recorded, computed);
     }
   }
   progress.erase();
-  figures.without_pictures = sets->without_pictures();
+  figures.without_pictures = replay->without_pictures();
   figures.compared = comparison.finish();
   if (figures.sets > 0) return figures;
   return fail(settings.recording.string() + ": no frame set with pictures; " +

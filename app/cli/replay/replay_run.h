@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/cli/progress.h"
-#include "app/cli/replay/comparison.h"
+#include "app/daemon/replay/replay.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::cli {
@@ -16,18 +16,14 @@ struct ReplaySettings {
   std::filesystem::path recording;
   std::string recipe;  ///< file in place of the recorded recipe, FILE or NUMBER=FILE; empty: none
   bool compares = false;
-  double tolerance = 0;          ///< see Comparison
-  std::optional<double> settle;  ///< s at the start that are not compared; none: kSettle
+  double tolerance = 0;          ///< see daemon::Comparison
+  std::optional<double> settle;  ///< s at the start that are not compared; none: daemon::kSettle
 };
-
-/// Time in which rates and delays of alarms forget what was before the recording, s. A recording
-/// that begins with the first frame set needs none.
-inline constexpr double kSettle = 2;
 
 struct ReplayFigures {
   std::size_t sets = 0;              ///< measured frame sets
   std::size_t without_pictures = 0;  ///< frame sets that were recorded without
-  ComparisonCounts compared;
+  daemon::ComparisonCounts compared;
 };
 
 /// Measures all frame sets of a recording again, with the configuration in it, and writes the

@@ -7,6 +7,9 @@
 
 #include "app/daemon/configuration/configuration_choice.h"
 #include "app/daemon/configuration/installed_configuration.h"
+#include "app/daemon/device/device_programs.h"
+#include "app/daemon/device/image_update.h"
+#include "app/daemon/device/pending_restore.h"
 #include "app/daemon/process/run_records.h"
 #include "app/daemon/site/interfaces.h"
 #include "app/log.h"
@@ -32,6 +35,27 @@ Result<> start_noticed(Appliance& appliance, ProgressNotice& notice) {
   return notice.start().and_then([&] { return appliance.start({&notice}); });
 }
 
+/// Null: without a state folder of its own nothing can be made or restored.
+std::shared_ptr<DeviceFiles> device_files(const std::filesystem::path& config,
+                                          const files::Resolved& site, RestartWatch& restarts) {
+  if (site.state_folder.empty()) return nullptr;
+  return std::make_shared<DevicePrograms>(config, site.state_folder,
+                                          [&restarts] { restarts.restart(); });
+}
+
+/// Null: this computer does not run an image.
+std::shared_ptr<DeviceUpdate> device_update(const files::Resolved& site,
+                                            const std::function<void()>& restart_device) {
+  const update::ImageFiles image;
+  if (site.state_folder.empty() || !image.version()) return nullptr;
+  const int reserve_mib = std::get<RecorderSettings>(site.site.sinks).reserve_mib;
+  return std::make_shared<ImageUpdate>(
+      ImageUpdate::Settings{.image = image,
+                            .folder = site.state_folder / "update",
+                            .reserve = static_cast<std::uint64_t>(reserve_mib) << 20,
+                            .restart_device = restart_device});
+}
+
 }  // namespace
 
 ApplianceThread::ApplianceThread(Context context) : context_(std::move(context)) {}
@@ -45,6 +69,7 @@ void ApplianceThread::start() {
 }
 
 Result<> ApplianceThread::run() {
+  complete_restore(context_.file);
   const auto reserved = reserve_service_folder();
   if (!reserved) return tl::unexpected(reserved.error());
   const auto chosen = choose(context_.file);
@@ -62,9 +87,12 @@ Result<> ApplianceThread::run() {
       [&](const CalibrationEntry& entry) {
         return check_acceptance(context_.file, chosen->site, entry);
       },
-      {files, context_.log, versions("orbwatchd"), commanders_text(chosen->site.site.sinks)});
+      {files, context_.log, versions("orbwatchd"), commanders_text(chosen->site.site.sinks),
+       device_files(context_.file, chosen->site, restarts),
+       device_update(chosen->site, context_.restart_device)});
   if (!appliance) return tl::unexpected(appliance.error());
   if (!chosen->refusal.empty()) (*appliance)->report_refused_configuration();
+  (*appliance)->on_stop_line(context_.on_stop_line);
   publish(appliance->get());
   if (auto started = start_noticed(**appliance, notice); !started) {
     publish(nullptr);

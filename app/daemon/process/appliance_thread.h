@@ -11,6 +11,7 @@
 #include "app/daemon/appliance.h"
 #include "app/daemon/process/completion.h"
 #include "app/daemon/process/restart_watch.h"
+#include "app/ports/lines/lines.h"
 #include "app/recent_log.h"
 #include "hal/clock.h"
 #include "hal/thread/thread.h"
@@ -27,9 +28,11 @@ class ApplianceThread {
   struct Context {
     std::filesystem::path file;  ///< of the configuration
     std::shared_ptr<const RecentLog> log;
-    RestartWatch& restarts;               ///< outlives it
-    std::function<bool()> is_supervised;  ///< as of ProgressNotice
-    std::function<void()> on_end;         ///< called once, on the thread: it has ended
+    RestartWatch& restarts;                ///< outlives it
+    std::function<bool()> is_supervised;   ///< as of ProgressNotice
+    std::function<void()> on_end;          ///< called once, on the thread: it has ended
+    OnStopLine on_stop_line;               ///< called on the thread of the lines
+    std::function<void()> restart_device;  ///< restarts the computer; on any thread
   };
 
   explicit ApplianceThread(Context context);

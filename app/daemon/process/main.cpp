@@ -103,6 +103,22 @@ ExitStatus status_of(const Result<>& result) {
   return ExitStatus::Failed;
 }
 
+/// Status of an end that did not fail.
+ExitStatus status_of(Supervision::End end) {
+  switch (end) {
+    case Supervision::End::Stop:
+    case Supervision::End::Restart:
+      return ExitStatus::Done;
+    case Supervision::End::StopLine:
+      return ExitStatus::StopLine;
+    case Supervision::End::PowerOff:
+      return ExitStatus::PowerOff;
+    case Supervision::End::RestartDevice:
+      return ExitStatus::RestartDevice;
+  }
+  return ExitStatus::Failed;
+}
+
 /// Runs until a signal. Does not return after an end that hangs, or that the log does not take.
 ExitStatus run(const sigset_t& signals, const std::filesystem::path& file,
                std::shared_ptr<const RecentLog> recent, LogWriter& log, char** argv) {
@@ -110,11 +126,11 @@ ExitStatus run(const sigset_t& signals, const std::filesystem::path& file,
   const auto end = supervision.run();
   if (!end) return status_of(tl::unexpected(end.error()));
   const bool is_orderly = supervision.finish(*end);
-  ExitStatus status = ExitStatus::Done;
+  ExitStatus status = status_of(*end);
   if (*end == Supervision::End::Restart) {
     log.flush(Supervision::kLongestAbandonment);
     status = status_of(start_again(argv));
-  } else if (is_orderly) {
+  } else if (*end == Supervision::End::Stop && is_orderly) {
     status = status_of(supervision.result());
   }
   const bool is_logged = log.flush(Supervision::kLongestAbandonment);

@@ -45,8 +45,11 @@ Supervision::Supervision(const sigset_t& signals, const std::filesystem::path& f
                          woken_.signal();
                        },
                        [this] { appliance_.report_refusal(); }}),
-      appliance_({file, std::move(log), restarts_, [this] { return is_supervised(); },
-                  [this] { woken_.signal(); }}) {}
+      appliance_(
+          {file, std::move(log), restarts_, [this] { return is_supervised(); },
+           [this] { woken_.signal(); },
+           [this](const std::string& line, bool power_off) { stop_by_line(line, power_off); },
+           [this] { restart_device(); }}) {}
 
 Result<Supervision::End> Supervision::run() {
   if (!signals_.is_open() || !woken_.is_open()) {
@@ -65,6 +68,7 @@ Result<Supervision::End> Supervision::run() {
       log_soon(LogLevel::Info, {"ended by signal ", std::to_string(signal)});
       return End::Stop;
     }
+    if (device_end_ != End::Stop) return device_end_;
     if (appliance_.has_ended()) return End::Stop;
     if (is_restart_decided_) return End::Restart;
     if (is_trial_over()) {
@@ -73,6 +77,21 @@ Result<Supervision::End> Supervision::run() {
       return End::Restart;
     }
   }
+}
+
+/// On the thread of the lines.
+void Supervision::stop_by_line(const std::string& line, bool power_off) {
+  log_soon(LogLevel::Warning,
+           {"line ", line, " asks for a stop", power_off ? " and power-off" : ""});
+  device_end_ = power_off ? End::PowerOff : End::StopLine;
+  woken_.signal();
+}
+
+/// On the thread of an interface.
+void Supervision::restart_device() {
+  log_soon(LogLevel::Info, {"restarts the computer for an update"});
+  device_end_ = End::RestartDevice;
+  woken_.signal();
 }
 
 /// 0: none; those to start again are forwarded.
@@ -101,8 +120,10 @@ bool Supervision::is_trial_over() const {
 
 bool Supervision::finish(End end) {
   const bool restarts = end == End::Restart;
-  const auto deadline = hal::Clock::now() + kLongestEnd;
-  bool is_orderly = appliance_.end(restarts, kLongestEnd);
+  const bool is_of_service = end == End::Stop || restarts;
+  const auto longest = is_of_service ? kLongestEnd : kLongestEndByLine;
+  const auto deadline = hal::Clock::now() + longest;
+  bool is_orderly = appliance_.end(restarts, longest);
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - hal::Clock::now());
   is_orderly = restarts_.end(std::max(left, std::chrono::milliseconds(0))) && is_orderly;
   if (is_orderly) return true;

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "app/daemon/process/appliance_thread.h"
 #include "app/daemon/process/restart_watch.h"
@@ -25,10 +26,14 @@ sigset_t block_signals();
 /// while it turns is the watchdog fed. Thread-bound.
 class Supervision {
  public:
-  enum class End { Stop, Restart };
+  /// StopLine and PowerOff: a line asked for it. RestartDevice: an installed update is to be tried.
+  enum class End { Stop, Restart, StopLine, PowerOff, RestartDevice };
 
   /// Time for the appliance's orderly end; with kLongestAbandonment less than TimeoutStopSec.
   static constexpr std::chrono::seconds kLongestEnd{3};
+  /// The same when the computer ends, too: events are written to their end, and a supply that
+  /// asks for it lasts for longer.
+  static constexpr std::chrono::seconds kLongestEndByLine{15};
   /// Time for each step in place of an orderly end.
   static constexpr std::chrono::seconds kLongestAbandonment{1};
 
@@ -48,6 +53,8 @@ class Supervision {
   const Result<>& result() const { return appliance_.result(); }
 
  private:
+  void stop_by_line(const std::string& line, bool power_off);
+  void restart_device();
   bool is_supervised() const;
   bool is_trial_over() const;
   int signal_that_ends();
@@ -57,6 +64,7 @@ class Supervision {
   const hal::EventFd woken_;  ///< by the other threads
   std::atomic<hal::TimePoint> turned_;
   std::atomic<bool> is_restart_decided_{false};
+  std::atomic<End> device_end_{End::Stop};  ///< Stop: no line has asked
   RestartWatch restarts_;
   ApplianceThread appliance_;
 };

@@ -25,10 +25,24 @@ std::vector<files::ControlSettings> controls_of(const files::Resolved& site, std
   return controls;
 }
 
+/// True: a sink records pictures of the camera.
+bool is_recorded(const files::Resolved& site, const files::CameraSettings& camera) {
+  bool is_recorded = false;
+  files::for_each_sink(site.site.sinks, [&](const auto& settings) {
+    if constexpr (requires { records_pictures(settings, camera.name); }) {
+      is_recorded = is_recorded || records_pictures(settings, camera.name);
+    }
+  });
+  return is_recorded;
+}
+
 /// A triggered camera's frames queue. Of several sizes, such as the picture with lines of
 /// telemetry, only the rig's can be used.
-hal::StreamRequest stream_of(const files::CameraSettings& settings, const optics::RigCamera& rig) {
+hal::StreamRequest stream_of(const files::Resolved& site, std::size_t camera) {
+  const files::CameraSettings& settings = site.site.cameras[camera];
+  const optics::RigCamera& rig = site.rig_camera(camera);
   hal::StreamRequest stream = settings.stream;
+  stream.keeps_jpeg = is_recorded(site, settings);
   if (files::facts_of(settings.back_end).takes_size_of_rig) {
     if (stream.width == 0) stream.width = rig.width;
     if (stream.height == 0) stream.height = rig.height;
@@ -108,7 +122,7 @@ std::unique_ptr<hal::Camera> make_camera(
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const files::Resolved& site,
                                                  std::size_t index) {
   const files::CameraSettings& settings = site.site.cameras[index];
-  auto format = camera.configure(stream_of(settings, site.rig_camera(index)));
+  auto format = camera.configure(stream_of(site, index));
   if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
   for (const files::ControlSettings& control : controls_of(site, index)) {
     if (const auto done = camera.set(control.name, control.value); !done) {

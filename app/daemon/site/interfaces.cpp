@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "app/daemon/recordings/recorded_regions.h"
+#include "app/daemon/replay/replay_desk.h"
 #include "app/daemon/site/published.h"
 #include "app/daemon/site/recorded_cameras.h"
 #include "app/model/fleet/appliance_notice.h"
@@ -42,14 +44,40 @@ std::shared_ptr<RecordedEvents> make_events(const files::SinkSettings& sinks) {
   return events;
 }
 
+/// Null: no events are recorded.
+std::shared_ptr<RecordedExports> make_exports(const files::SinkSettings& sinks) {
+  std::shared_ptr<RecordedExports> exports;
+  files::for_each_sink(sinks, [&exports](const auto& settings) {
+    if constexpr (requires { recorded_exports(settings); }) exports = recorded_exports(settings);
+  });
+  return exports;
+}
+
+/// Null: no events are recorded.
+std::shared_ptr<RecordedReplays> make_replays(const std::shared_ptr<RecordedEvents>& events,
+                                              const files::Resolved& site) {
+  if (!events) return nullptr;
+  RecipeTexts recipes;
+  for (const files::RecipeFile& recipe : site.site.recipes) {
+    const auto text = site.texts.find(recipe.file.path);
+    if (text != site.texts.end()) recipes[recipe.number] = text->second;
+  }
+  return std::make_shared<ReplayDesk>(events, std::move(recipes),
+                                      ReplayLimits{.free_memory = free_memory});
+}
+
 PageContext page_context(const files::Resolved& site, const SitePlan& plan,
                          AlignmentSource* alignment, Program program) {
+  const std::shared_ptr<RecordedEvents> events = make_events(site.site.sinks);
   return {.ball = plan.scene.ball,
           .scene = plan.scene.proxy,
           .balls = camera_balls(site),
           .recipes = measured_recipes(site, plan),
           .alignment = alignment,
-          .events = make_events(site.site.sinks),
+          .events = events,
+          .regions = recorded_regions,
+          .exports = make_exports(site.site.sinks),
+          .replays = make_replays(events, site),
           .state_folder = site.state_folder,
           .program = std::move(program)};
 }

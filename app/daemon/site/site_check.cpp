@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/daemon/recorded_machine.h"
 #include "app/daemon/site/recorded_cameras.h"
 #include "app/daemon/site/view_memory.h"
 #include "app/pipeline/measurement/compiled_recipe.h"
@@ -26,6 +27,11 @@ bool meet(const ListeningPort& a, const ListeningPort& b) {
 
 std::string text_of(const ListeningPort& port) {
   return "[" + std::string(port.interface) + "] " + std::string(port.key);
+}
+
+Result<> check_machine(const files::Resolved& site) {
+  if (site.site.machine.source != MachineSource::Recording) return {};
+  return replayed_recording(site).map([](const std::filesystem::path&) {});
 }
 
 }  // namespace
@@ -87,6 +93,7 @@ Result<SitePlan> checked_plan(const files::Resolved& site, Dates dates) {
       .and_then([&] { return check_ports(site); })
       .and_then([&] { return check_keys(site, dates); })
       .and_then([&] { return check_recordings(site); })
+      .and_then([&] { return check_machine(site); })
       .map([&] { return std::move(*plan); });
 }
 

@@ -31,10 +31,37 @@ struct RecordedEvent {
   bool is_interrupted = false;  ///< it was not recorded to its end
 };
 
+/// Part of a camera's picture that is recorded, px.
+struct FramePart {
+  std::size_t first = 0;  ///< number of the first picture with it; the next part has the next ones
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// Pictures of one camera in an event.
 struct RecordedFrames {
   std::string camera;
   std::vector<std::string> times;  ///< UTC of their frame sets, ascending
+  std::vector<FramePart> parts;
+};
+
+/// A recipe that an event was measured by, until the next one.
+struct RecordedRecipeChange {
+  std::string time;  ///< UTC of the first frame set
+  std::uint16_t recipe = 0;
+};
+
+/// A value that an event has with its frame sets.
+struct RecordedSignal {
+  std::string region;  ///< empty: of the machine
+  std::string figure, unit;
+};
+
+/// A signal over an event, in steps of one frame set or, in long events, of several in succession.
+struct RecordedCourse {
+  std::string unit;
+  std::vector<std::string> times;         ///< UTC of the first frame set of each step
+  std::vector<std::uint64_t> frame_sets;  ///< its number
+  std::vector<double> low, high;          ///< of each step; NaN: not valid
 };
 
 /// The events of the recorder, for other interfaces. Each call waits for the disk. Thread-safe.
@@ -55,6 +82,13 @@ class RecordedEvents {
   /// A picture of a camera as JPEG; 16 bit is stretched. Error also: there is no such picture.
   virtual Result<std::string> frame(std::string_view event, std::string_view camera,
                                     std::size_t frame) = 0;
+  /// Signals of regions and of the machine that were a number at any time.
+  virtual Result<std::vector<RecordedSignal>> signals(std::string_view event) = 0;
+  /// Recipes in the order of the recording; of very many changes the first ones.
+  virtual Result<std::vector<RecordedRecipeChange>> recipes(std::string_view event) = 0;
+  /// Error also: there is no such signal.
+  virtual Result<RecordedCourse> course(std::string_view event, const std::string& region,
+                                        const std::string& figure) = 0;
   virtual Result<> set_pinned(std::string_view event, bool is_pinned) = 0;
   virtual Result<> remove(std::string_view event) = 0;
 };

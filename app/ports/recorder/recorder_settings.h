@@ -9,6 +9,7 @@
 
 #include "app/model/sink/recorded_camera.h"
 #include "app/model/sink/recorded_events.h"
+#include "app/model/sink/recorded_exports.h"
 #include "app/model/sink/recorded_texts.h"
 #include "app/model/sink/sink.h"
 #include "app/model/status/status_report.h"
@@ -51,8 +52,14 @@ void visit(Visitor& v, RecorderSettings& recorder) {
 Result<> check_recorded(const RecorderSettings& settings,
                         const std::vector<RecordedCamera>& cameras);
 
+/// True: events have pictures of the camera. Reentrant.
+bool records_pictures(const RecorderSettings& settings, std::string_view camera);
+
 /// Events that are recorded by these settings, for other interfaces; null: none are.
 std::shared_ptr<RecordedEvents> recorded_events(const RecorderSettings& settings);
+
+/// Exports of these events, for other interfaces; null: none are recorded.
+std::shared_ptr<RecordedExports> recorded_exports(const RecorderSettings& settings);
 
 /// Null without a folder. `cameras` by index.
 std::unique_ptr<Sink> make_sink(const RecorderSettings& settings, const StatusNames& names,

@@ -221,6 +221,11 @@ Result<> check_recorded(const RecorderSettings& settings,
   return settings.events ? recorder::check_ring(*settings.events, cameras) : Result<>();
 }
 
+bool records_pictures(const RecorderSettings& settings, std::string_view camera) {
+  return !settings.folder.empty() && settings.events &&
+         recorder::is_recorded(*settings.events, camera);
+}
+
 std::shared_ptr<RecordedEvents> recorded_events(const RecorderSettings& settings) {
   if (settings.folder.empty() || !settings.events) return nullptr;
   return std::make_shared<recorder::EventArchive>(settings.folder);

@@ -82,6 +82,20 @@ Result<std::string> EventArchive::frame(std::string_view event, std::string_view
       [&](const auto& file) { return pictures_.jpeg(file, camera, frame); });
 }
 
+Result<std::vector<RecordedSignal>> EventArchive::signals(std::string_view event) {
+  return recording(event).and_then([this](const auto& file) { return signals_.list(file); });
+}
+
+Result<std::vector<RecordedRecipeChange>> EventArchive::recipes(std::string_view event) {
+  return recording(event).and_then([this](const auto& file) { return signals_.recipes(file); });
+}
+
+Result<RecordedCourse> EventArchive::course(std::string_view event, const std::string& region,
+                                            const std::string& figure) {
+  return recording(event).and_then(
+      [&](const auto& file) { return signals_.course(file, region, figure); });
+}
+
 Result<> EventArchive::set_pinned(std::string_view event, bool is_pinned) {
   return finished(event).and_then([is_pinned](const StoredEvent& stored) {
     return EventFolder::set_pinned(stored, is_pinned);

@@ -9,6 +9,7 @@
 #include "app/ports/recorder/events/event_folder.h"
 #include "app/ports/recorder/events/event_index.h"
 #include "app/ports/recorder/events/event_pictures.h"
+#include "app/ports/recorder/events/event_signals.h"
 
 namespace orbwatch::app::recorder {
 
@@ -25,6 +26,10 @@ class EventArchive final : public RecordedEvents {
   Result<std::vector<RecordedFrames>> frames(std::string_view event) override;
   Result<std::string> frame(std::string_view event, std::string_view camera,
                             std::size_t frame) override;
+  Result<std::vector<RecordedSignal>> signals(std::string_view event) override;
+  Result<std::vector<RecordedRecipeChange>> recipes(std::string_view event) override;
+  Result<RecordedCourse> course(std::string_view event, const std::string& region,
+                                const std::string& figure) override;
   /// Error also: it is being recorded.
   Result<> set_pinned(std::string_view event, bool is_pinned) override;
   /// Error also: it is being recorded.
@@ -35,6 +40,7 @@ class EventArchive final : public RecordedEvents {
 
   const EventFolder folder_;
   EventPictures pictures_;
+  EventSignals signals_;
   std::mutex mutex_;
   EventIndex index_;                 ///< guarded by mutex_
   std::vector<StoredEvent> stored_;  ///< as in listed_; guarded by mutex_

@@ -64,8 +64,10 @@ FileResult<> EventFile::write(const LogMessage& message) {
   return log_.write(stamped);
 }
 
-bool EventFile::is_lossless(PixelFormat format) const {
-  return settings_->lossless || info(format).bytes_per_sample() > 1;
+/// True: pixels are written, not JPEG.
+bool EventFile::is_raw(const KeptFrame& frame) const {
+  if (!frame.jpeg.empty()) return false;
+  return settings_->lossless || info(frame.picture.format).bytes_per_sample() > 1;
 }
 
 /// The channels of a camera begin with its first picture, whose format is known.
@@ -74,13 +76,17 @@ FileResult<> EventFile::add_camera(const KeptFrame& frame) {
   hal::StreamFormat format = camera.format;
   format.format = frame.picture.format;
   format.colour_space = frame.picture.colour_space;
-  const bool is_raw = is_lossless(format.format);
   Channels channels;
+  channels.is_raw = is_raw(frame);
+  auto metadata = recording::metadata_of(format);
+  if (!channels.is_raw && frame.jpeg.empty()) {
+    metadata.emplace_back(recording::kJpegQuality, std::to_string(settings_->quality));
+  }
   const auto added =
-      log_.add_topic(is_raw ? recording::image_topic(kPrefix, camera.name)
-                            : recording::compressed_topic(kPrefix, camera.name),
-                     is_raw ? recording::Image::kType : recording::CompressedImage::kType,
-                     recording::metadata_of(format))
+      log_.add_topic(channels.is_raw ? recording::image_topic(kPrefix, camera.name)
+                                     : recording::compressed_topic(kPrefix, camera.name),
+                     channels.is_raw ? recording::Image::kType : recording::CompressedImage::kType,
+                     metadata)
           .and_then([&](std::uint16_t channel) {
             channels.pictures = channel;
             return log_.add_topic(recording::camera_info_topic(kPrefix, camera.name),
@@ -91,42 +97,54 @@ FileResult<> EventFile::add_camera(const KeptFrame& frame) {
   return added;
 }
 
+void EventFile::encode_jpeg(std::span<const std::byte> jpeg, std::string_view format,
+                            const recording::Header& header) {
+  recording::CompressedImage message;
+  message.header = header;
+  message.format = format;
+  message.data = jpeg;
+  hal::mcap::encode_cdr(message, message_);
+}
+
 /// Puts the picture's message into message_.
 FileResult<> EventFile::encode(const KeptFrame& frame, const recording::Header& header) {
   const Picture& picture = frame.picture;
-  if (is_lossless(picture.format)) {
+  if (!frame.jpeg.empty()) {
+    encode_jpeg(frame.jpeg, recording::kReceivedJpeg, header);
+    return {};
+  }
+  if (is_raw(frame)) {
     hal::mcap::encode_cdr(recording::image_of(picture, header, pixels_), message_);
     return {};
   }
   const auto jpeg = jpeg_.encode(picture, settings_->quality);
   if (!jpeg) return tl::unexpected(hal::mcap::FileError{ENOMEM, jpeg.error().message});
   const bool is_grey = info(picture.format).colour == ColourModel::Luminance;
-  recording::CompressedImage message;
-  message.header = header;
-  message.format = is_grey ? recording::kGreyJpeg : recording::kColourJpeg;
-  message.data = std::as_bytes(*jpeg);
-  hal::mcap::encode_cdr(message, message_);
+  encode_jpeg(std::as_bytes(*jpeg), is_grey ? recording::kGreyJpeg : recording::kColourJpeg,
+              header);
   return {};
 }
 
-FileResult<> EventFile::write(const KeptFrame& frame) {
+FileResult<bool> EventFile::write(const KeptFrame& frame) {
   if (!channels_[frame.camera]) {
-    if (auto added = add_camera(frame); !added) return added;
+    if (auto added = add_camera(frame); !added) return hal::mcap::error_of(added);
   }
+  const Channels& channels = *channels_[frame.camera];
+  if (channels.is_raw != is_raw(frame)) return false;
   const RecordedCamera& camera = (*cameras_)[frame.camera];
   const std::uint64_t stamp = nanoseconds(utc(frame.stamp));
   const auto header = recording::header_at(stamp, camera.name);
-  hal::mcap::MessageHead head{channels_[frame.camera]->places,
-                              static_cast<std::uint32_t>(frame.sequence),
+  hal::mcap::MessageHead head{channels.places, static_cast<std::uint32_t>(frame.sequence),
                               nanoseconds(utc(frame.set_stamp)), stamp};
   auto place = recording::camera_info_of(frame.place, header);
   if (camera.lens) add_lens(place, *camera.lens);
   hal::mcap::encode_cdr(place, message_);
-  if (auto written = log_.write(head, message_); !written) return written;
-  head.channel_id = channels_[frame.camera]->pictures;
+  if (auto written = log_.write(head, message_); !written) return hal::mcap::error_of(written);
+  head.channel_id = channels.pictures;
   auto written = encode(frame, header).and_then([&] { return log_.write(head, message_); });
-  if (written) ++pictures_[frame.camera];
-  return written;
+  if (!written) return hal::mcap::error_of(written);
+  ++pictures_[frame.camera];
+  return true;
 }
 
 FileResult<> EventFile::finish() {

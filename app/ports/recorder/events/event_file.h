@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "app/model/sink/recorded_camera.h"
@@ -31,8 +32,10 @@ class EventFile {
                                                  hal::TimePoint moment, Utc utc);
 
   hal::mcap::FileResult<> write(const LogMessage& message);
-  /// Codes and writes a picture. Errors: of the disk; a picture that cannot be coded.
-  hal::mcap::FileResult<> write(const KeptFrame& frame);
+  /// Codes and writes a picture; JPEG data of a camera is written as it is. False: the picture is
+  /// left out, because its camera has changed from pixels to JPEG data, or back, since the first
+  /// one. Errors: of the disk; a picture that cannot be coded.
+  hal::mcap::FileResult<bool> write(const KeptFrame& frame);
 
   /// Hands everything to the disk, and waits until it is there.
   hal::mcap::FileResult<> flush() { return log_.flush(); }
@@ -50,6 +53,7 @@ class EventFile {
   /// Topics of a camera.
   struct Channels {
     std::uint16_t pictures = 0, places = 0;
+    bool is_raw = false;
   };
 
   EventFile(LogFile log, const EventSettings& settings, const std::vector<RecordedCamera>& cameras,
@@ -61,8 +65,10 @@ class EventFile {
         channels_(cameras.size()),
         pictures_(cameras.size()) {}
 
-  bool is_lossless(PixelFormat format) const;
+  bool is_raw(const KeptFrame& frame) const;
   hal::mcap::FileResult<> add_camera(const KeptFrame& frame);
+  void encode_jpeg(std::span<const std::byte> jpeg, std::string_view format,
+                   const hal::recording::Header& header);
   hal::mcap::FileResult<> encode(const KeptFrame& frame, const hal::recording::Header& header);
 
   LogFile log_;

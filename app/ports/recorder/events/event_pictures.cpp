@@ -14,6 +14,15 @@ namespace {
 
 constexpr int kQuality = 90;
 
+/// Adds the part of the next picture if it differs from that before.
+void add_part(const hal::recording::PictureRegion& region, RecordedFrames& frames) {
+  const FramePart part{frames.times.size(), region.x, region.y, region.width, region.height};
+  const bool is_same = !frames.parts.empty() && frames.parts.back().x == part.x &&
+                       frames.parts.back().y == part.y && frames.parts.back().width == part.width &&
+                       frames.parts.back().height == part.height;
+  if (!is_same) frames.parts.push_back(part);
+}
+
 }  // namespace
 
 Result<std::vector<RecordedFrames>> EventPictures::frames(
@@ -27,6 +36,7 @@ Result<std::vector<RecordedFrames>> EventPictures::frames(
     RecordedFrames& frames = all.emplace_back();
     frames.camera = camera;
     for (const auto& exposure : pictures->index().exposures) {
+      add_part(exposure.region, frames);
       frames.times.push_back(utc_text_at(exposure.set_time));
     }
   }

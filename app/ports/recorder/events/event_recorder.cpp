@@ -2,7 +2,9 @@
 #include "app/ports/recorder/events/event_recorder.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/model/status/utc_text.h"
@@ -24,9 +26,11 @@ std::size_t ring_bytes(const EventSettings& settings) {
 std::size_t least_bytes(const std::vector<RecordedCamera>& cameras) {
   std::size_t least = std::size_t{1} << 20;
   for (const RecordedCamera& camera : cameras) {
-    const auto bytes =
+    constexpr std::size_t kBestCompression = 8;
+    const auto pixels =
         static_cast<std::size_t>(camera.ball.width) * static_cast<std::size_t>(camera.ball.height);
-    least = std::min(least, bytes);
+    least = std::min(least,
+                     camera.format.has_jpeg ? picture_bytes_of(camera) / kBestCompression : pixels);
   }
   return least;
 }
@@ -35,13 +39,19 @@ std::vector<bool> recorded_ones(const EventSettings& settings,
                                 const std::vector<RecordedCamera>& cameras) {
   std::vector<bool> recorded;
   recorded.reserve(cameras.size());
-  for (const RecordedCamera& camera : cameras) recorded.push_back(is_recorded(settings, camera));
+  for (const RecordedCamera& camera : cameras)
+    recorded.push_back(is_recorded(settings, camera.name));
   return recorded;
 }
 
 Result<> as_result(const hal::mcap::FileResult<>& result) {
   if (result) return {};
   return fail(result.error().message);
+}
+
+Result<> write_jpeg(const std::filesystem::path& path, std::span<const std::byte> jpeg) {
+  return hal::write_file(path,
+                         std::string_view(reinterpret_cast<const char*>(jpeg.data()), jpeg.size()));
 }
 
 }  // namespace
@@ -56,7 +66,7 @@ EventRecorder::EventRecorder(const RecorderSettings& settings, std::vector<Recor
       texts_(texts),
       counters_(counters),
       ring_(ring_bytes(settings_), least_bytes(cameras_)),
-      triggers_(settings_, ring_, started_),
+      triggers_(settings_, names_.process_inputs, ring_, started_),
       folder_(settings.folder) {}
 
 /// A frame that was in an earlier set is in the ring already.
@@ -78,7 +88,9 @@ void EventRecorder::put(const hal::FrameSet& set, std::size_t camera) {
                  frame.metadata.exposure_start,
                  {picture.width, picture.height, {0, 0, picture.width, picture.height}},
                  picture};
-  if (picture.width == planned.width && picture.height == planned.height) {
+  if (!frame.jpeg.empty()) {
+    kept.jpeg = frame.jpeg;
+  } else if (picture.width == planned.width && picture.height == planned.height) {
     kept.place.region = hal::recording::widened(cameras_[camera].ball, picture.format);
     kept.picture = hal::recording::part_of(picture, kept.place.region);
   }
@@ -95,11 +107,17 @@ void EventRecorder::add_figures(RecorderStatistics& statistics) const {
   statistics.ring_span = std::chrono::duration<double>(use.span).count();
 }
 
+/// Text for operators.
+std::string EventRecorder::cause_of(const Trigger& trigger) const {
+  if (trigger.kind == TriggerKind::Alarm) return event_text(trigger.notice, names_);
+  if (trigger.kind != TriggerKind::Line) return std::string(text_of(trigger.kind));
+  return "line " + settings_.on_lines[trigger.line] + " became active";
+}
+
 EventSummary EventRecorder::summary_of(const Trigger& trigger, Utc triggered) const {
   EventSummary summary;
   summary.trigger = name_of(trigger.kind);
-  summary.text = trigger.kind == TriggerKind::Alarm ? event_text(trigger.notice, names_)
-                                                    : std::string(text_of(trigger.kind));
+  summary.text = cause_of(trigger);
   summary.triggered = utc_text(triggered).value_or("");
   summary.frame_set = trigger.frame_set;
   summary.recipe = trigger.recipe;
@@ -184,10 +202,15 @@ Result<bool> EventRecorder::end_round() {
 Result<> EventRecorder::write_next(Running& event) {
   const auto frame = ring_.next(event.window);
   if (!frame) return {};
-  if (auto written = event.file.write(*frame); !written) return as_result(written);
+  const auto written = event.file.write(*frame);
+  if (!written) return fail(written.error().message);
+  if (*written) {
+    ++counters_.pictures;
+  } else {
+    ++event.left_out;
+  }
   if (!event.first_set) event.first_set = frame->set_stamp;
   event.last_set = frame->set_stamp;
-  ++counters_.pictures;
   const bool is_first = !event.has_picture && frame->set_stamp >= event.triggered;
   const auto drawn = is_first ? write_trigger_picture(event, *frame) : Result<>();
   ring_.pass(event.window);
@@ -197,6 +220,7 @@ Result<> EventRecorder::write_next(Running& event) {
 
 Result<> EventRecorder::write_trigger_picture(Running& event, const KeptFrame& frame) {
   event.has_picture = true;
+  if (!frame.jpeg.empty()) return write_jpeg(event.folder / kEventPicture, frame.jpeg);
   const auto jpeg = jpeg_for_people(jpeg_, frame.picture, settings_.quality);
   if (!jpeg) return tl::unexpected(jpeg.error());
   return hal::write_file(event.folder / kEventPicture, *jpeg);
@@ -217,7 +241,7 @@ Result<> EventRecorder::finish(Running& event, bool is_interrupted) {
       if (camera == cameras_[i].name) pictures = event.file.pictures()[i];
     }
   }
-  event.summary.lost = ring_.use().lost - event.lost_before;
+  event.summary.lost = ring_.use().lost - event.lost_before + event.left_out;
   event.summary.is_interrupted = is_interrupted;
   auto finished = as_result(event.file.finish())
                       .and_then([&] { return write_summary(event.folder, event.summary); })

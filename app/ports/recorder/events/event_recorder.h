@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <list>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/model/sink/recorded_camera.h"
@@ -74,12 +75,14 @@ class EventRecorder {
     EventFile file;
     EventSummary summary;
     std::uint64_t lost_before = 0;  ///< of the ring, at the start
+    std::uint64_t left_out = 0;     ///< pictures, see EventFile::write()
     std::uint64_t known_size = 0;   ///< as counted
     bool has_picture = false;       ///< of the trigger
   };
 
   void put(const hal::FrameSet& set, std::size_t camera);
   Result<> begin(const StartedEvent& started);
+  std::string cause_of(const Trigger& trigger) const;
   EventSummary summary_of(const Trigger& trigger, Utc triggered) const;
   Result<> write_next(Running& event);
   Result<> write_trigger_picture(Running& event, const KeptFrame& frame);

@@ -19,14 +19,17 @@ struct EventSettings {
   bool on_alarm = true;
   bool on_laser = false;
   bool on_layer = false;
-  std::vector<std::string> cameras;  ///< names; none: all
-  int quality = 90;                  ///< of JPEG
+  std::vector<std::string> on_lines;  ///< names of process inputs
+  std::vector<std::string> cameras;   ///< names; none: all
+  int quality = 90;                   ///< of JPEG
   bool lossless = false;
   int keep_days = 0;  ///< 0: as long as there is room
+  int line = 0;       ///< line of the table in its file, for messages
 };
 
 template <class Visitor>
 void visit(Visitor& v, EventSettings& events) {
+  v.line(events.line);
   v.required("ring_mib", events.ring_mib, Range::between(1, 65536),
              "Memory for the pictures that wait for a trigger or for the disk, MiB. It must hold "
              "before_s and after_s together; a picture costs the bytes of the ball's part, such "
@@ -43,9 +46,13 @@ void visit(Visitor& v, EventSettings& events) {
   v.optional("on_alarm", events.on_alarm, "Record an event when an alarm is raised");
   v.optional("on_laser", events.on_laser, "Record an event when the machine's laser goes on");
   v.optional("on_layer", events.on_layer, "Record an event when the machine's layer changes");
+  v.optional("on_lines", events.on_lines,
+             "Names of lines with use process_input: record an event when one becomes active");
   v.optional("cameras", events.cameras, "Cameras whose pictures are recorded; default: all");
-  v.optional("quality", events.quality, Range::between(1, 100),
-             "JPEG quality of 8-bit pictures; 16-bit ones are always lossless");
+  v.optional(
+      "quality", events.quality, Range::between(1, 100),
+      "JPEG quality of 8-bit pictures; 16-bit ones are always lossless, and those of cameras "
+      "that send JPEG stay as they were sent, whole");
   v.optional("lossless", events.lossless, "Record 8-bit pictures lossless, too, instead of JPEG");
   v.optional(
       "keep_days", events.keep_days, Range::between(0, 36500),

@@ -20,6 +20,16 @@ bool changes(double& last, double value) {
 
 }  // namespace
 
+EventTriggers::EventTriggers(const EventSettings& settings,
+                             const std::vector<std::string>& process_inputs, FrameRing& ring,
+                             Started& started)
+    : settings_(settings), ring_(ring), started_(started) {
+  for (const std::string& name : settings.on_lines) {
+    const auto found = std::ranges::find(process_inputs, name);
+    lines_.push_back({static_cast<std::size_t>(found - process_inputs.begin()), {}});
+  }
+}
+
 void EventTriggers::accept(const AlarmNotice& notice) {
   if (!settings_.on_alarm || notice.event.kind != signals::AlarmEventKind::Raised) return;
   fire({TriggerKind::Alarm, notice.stamp, notice.frame_set, notice.recipe, notice.part,
@@ -34,12 +44,32 @@ void EventTriggers::accept(const Status& status, hal::TimePoint now) {
   const bool is_layer = changes(layer_, machine.layer);
   if (is_laser && settings_.on_laser) fire(trigger_at(status, TriggerKind::Laser));
   if (is_layer && settings_.on_layer) fire(trigger_at(status, TriggerKind::Layer));
+  accept_lines(status);
   if (is_requested_.exchange(false)) fire(trigger_at(status, TriggerKind::Command));
 }
 
+/// Several edges of a line since the last status are one trigger and further ones that extend it.
+void EventTriggers::accept_lines(const Status& status) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const std::uint32_t edges = status.process_input_edges[lines_[i].input];
+    const std::uint32_t before = std::exchange(lines_[i].edges, edges).value_or(edges);
+    if (edges == before) continue;
+    Trigger trigger = trigger_at(status, TriggerKind::Line);
+    trigger.line = i;
+    fire(trigger);
+    extended_ += edges - before - 1;
+  }
+}
+
 Trigger EventTriggers::trigger_at(const Status& status, TriggerKind kind) {
-  return {kind,          status.stamp,        status.frame_set,
-          status.recipe, status.machine.part, status.machine.values.layer};
+  Trigger trigger;
+  trigger.kind = kind;
+  trigger.stamp = status.stamp;
+  trigger.frame_set = status.frame_set;
+  trigger.recipe = status.recipe;
+  trigger.part = status.machine.part;
+  trigger.layer = status.machine.values.layer;
+  return trigger;
 }
 
 /// False: none runs, it would become too long, or the recorder gave it up.

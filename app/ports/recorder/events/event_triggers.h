@@ -5,7 +5,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/model/status/alarm_notice.h"
 #include "app/model/status/status.h"
@@ -16,9 +19,10 @@
 namespace orbwatch::app::recorder {
 
 /// Kind of a cause.
-enum class TriggerKind : std::uint8_t { Alarm, Command, Laser, Layer };
+enum class TriggerKind : std::uint8_t { Alarm, Command, Laser, Layer, Line };
 inline constexpr std::array kTriggerKinds{TriggerKind::Alarm, TriggerKind::Command,
-                                          TriggerKind::Laser, TriggerKind::Layer};
+                                          TriggerKind::Laser, TriggerKind::Layer,
+                                          TriggerKind::Line};
 
 /// Name in files and folders.
 constexpr std::string_view name_of(TriggerKind kind) {
@@ -31,11 +35,13 @@ constexpr std::string_view name_of(TriggerKind kind) {
       return "laser_on";
     case TriggerKind::Layer:
       return "layer";
+    case TriggerKind::Line:
+      return "line";
   }
   return {};
 }
 
-/// Text for operators; that of an alarm is its notice's.
+/// Text for operators; that of an alarm is its notice's, and that of a line has its name.
 constexpr std::string_view text_of(TriggerKind kind) {
   switch (kind) {
     case TriggerKind::Alarm:
@@ -46,6 +52,8 @@ constexpr std::string_view text_of(TriggerKind kind) {
       return "the laser went on";
     case TriggerKind::Layer:
       return "the layer changed";
+    case TriggerKind::Line:
+      return "a line became active";
   }
   return {};
 }
@@ -59,6 +67,7 @@ struct Trigger {
   PartName part;
   double layer = signals::kNotValid;
   AlarmNotice notice{};  ///< of an alarm
+  std::size_t line = 0;  ///< index in EventSettings::on_lines, of a line
 };
 
 /// An event that is to be recorded, from the pipeline's thread to the recorder's.
@@ -76,9 +85,10 @@ class EventTriggers {
  public:
   using Started = hal::BoundedQueue<StartedEvent, 2 * FrameRing::kMostWindows>;
 
-  /// The settings, the ring and the queue are the caller's and outlive this.
-  EventTriggers(const EventSettings& settings, FrameRing& ring, Started& started)
-      : settings_(settings), ring_(ring), started_(started) {}
+  /// The settings, the ring and the queue are the caller's and outlive this. `process_inputs`:
+  /// names by index in a Status, among which are the settings' lines.
+  EventTriggers(const EventSettings& settings, const std::vector<std::string>& process_inputs,
+                FrameRing& ring, Started& started);
 
   /// Triggers by the next status.
   void request() { is_requested_ = true; }
@@ -98,7 +108,12 @@ class EventTriggers {
     std::size_t window = 0;
     hal::TimePoint first, last;
   };
+  struct WatchedLine {
+    std::size_t input = 0;               ///< index in a Status
+    std::optional<std::uint32_t> edges;  ///< last reported count
+  };
 
+  void accept_lines(const Status& status);
   void fire(const Trigger& trigger);
   bool extends_newest(hal::TimePoint last);
   void end_before(hal::TimePoint moment);
@@ -111,6 +126,7 @@ class EventTriggers {
   std::array<Running, FrameRing::kMostWindows> running_;  ///< the first count_, oldest first
   std::size_t count_ = 0;
   double laser_ = signals::kNotValid, layer_ = signals::kNotValid;  ///< last ones known
+  std::vector<WatchedLine> lines_;                                  ///< those of the settings
   std::atomic<std::uint64_t> extended_{0}, refused_{0};
 };
 

@@ -9,9 +9,29 @@
 namespace orbwatch::app::recorder {
 namespace {
 
-std::size_t bytes_of(const Picture& picture) {
+std::size_t bytes_of(const KeptFrame& frame) {
+  if (!frame.jpeg.empty()) return frame.jpeg.size();
+  const Picture& picture = frame.picture;
   const int row = row_bytes(picture.format, picture.width);
   return picture_bytes(picture.format, static_cast<std::size_t>(row), picture.height);
+}
+
+/// Copies the picture or its JPEG data to `place`. Returns the frame with the copy.
+KeptFrame copy_to(std::byte* place, const KeptFrame& frame) {
+  KeptFrame kept = frame;
+  const Picture& picture = frame.picture;
+  if (!frame.jpeg.empty()) {
+    std::ranges::copy(frame.jpeg, place);
+    kept.jpeg = {place, frame.jpeg.size()};
+    kept.picture.planes = {};
+    return kept;
+  }
+  MutablePicture copy = MutablePicture::contiguous(picture.format, picture.width, picture.height,
+                                                   place, row_bytes(picture.format, picture.width));
+  copy.colour_space = picture.colour_space;
+  hal::recording::copy_pixels(picture, copy);
+  kept.picture = copy;
+  return kept;
 }
 
 /// Pictures begin at multiples of it, so that their samples are aligned.
@@ -48,7 +68,7 @@ std::optional<std::uint64_t> FrameRing::place_for(std::size_t bytes) {
 }
 
 bool FrameRing::put(const KeptFrame& frame) {
-  const std::size_t bytes = bytes_of(frame.picture);
+  const std::size_t bytes = bytes_of(frame);
   std::optional<std::uint64_t> begin;
   {
     const std::lock_guard lock(mutex_);
@@ -59,16 +79,9 @@ bool FrameRing::put(const KeptFrame& frame) {
       return false;
     }
   }
-  const Picture& picture = frame.picture;
-  MutablePicture copy = MutablePicture::contiguous(picture.format, picture.width, picture.height,
-                                                   bytes_.data() + *begin % bytes_.size(),
-                                                   row_bytes(picture.format, picture.width));
-  copy.colour_space = picture.colour_space;
-  hal::recording::copy_pixels(picture, copy);
+  const KeptFrame kept = copy_to(bytes_.data() + *begin % bytes_.size(), frame);
   const std::lock_guard lock(mutex_);
-  Slot& taken = slot(behind_++);
-  taken = {frame, *begin, *begin + bytes};
-  taken.frame.picture = copy;
+  slot(behind_++) = {kept, *begin, *begin + bytes};
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hal/clock.h"
@@ -24,6 +25,8 @@ struct KeptFrame {
   hal::TimePoint stamp;                ///< start of its own exposure
   hal::recording::PicturePlace place;  ///< of the picture in the camera's whole one
   Picture picture;                     ///< the part that is kept
+  /// The picture as the camera sent it; then the ring keeps no pixels, and `picture` has none.
+  std::span<const std::byte> jpeg = {};
 };
 
 /// Figures of the ring.
@@ -47,7 +50,7 @@ class FrameRing {
   /// `least_frame`: bytes of the smallest picture, which bounds their number.
   FrameRing(std::size_t bytes, std::size_t least_frame);
 
-  /// Copies the picture. False: it is lost.
+  /// Copies the picture, or its JPEG data. False: it is lost.
   bool put(const KeptFrame& frame);
 
   /// A window that holds the pictures of all frame sets from `first` to `last`, both included, also

@@ -15,13 +15,19 @@ constexpr std::size_t kMostPictureBytes = std::size_t{31} << 20;
 
 }  // namespace
 
-bool is_recorded(const EventSettings& settings, const RecordedCamera& camera) {
+bool is_recorded(const EventSettings& settings, std::string_view camera) {
   return settings.cameras.empty() ||
-         std::ranges::find(settings.cameras, camera.name) != settings.cameras.end();
+         std::ranges::find(settings.cameras, camera) != settings.cameras.end();
 }
 
 std::size_t picture_bytes_of(const RecordedCamera& camera) {
+  constexpr std::size_t kLeastCompression = 4;
   const PixelFormat format = camera.format.format;
+  if (camera.format.has_jpeg) {
+    const int row = row_bytes(format, camera.format.width);
+    return picture_bytes(format, static_cast<std::size_t>(row), camera.format.height) /
+           kLeastCompression;
+  }
   const auto part = hal::recording::widened(camera.ball, format);
   return picture_bytes(format, static_cast<std::size_t>(row_bytes(format, part.width)),
                        part.height);
@@ -35,7 +41,7 @@ Result<> check_ring(const EventSettings& settings, const std::vector<RecordedCam
   }
   double bytes_per_second = 0;
   for (const RecordedCamera& camera : cameras) {
-    if (!is_recorded(settings, camera)) continue;
+    if (!is_recorded(settings, camera.name)) continue;
     if (picture_bytes_of(camera) > kMostPictureBytes) {
       return fail("recorder.events.cameras: a picture of " + camera.name +
                   " is larger than 31 MiB, the limit of recordings; name other cameras");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "app/model/sink/recorded_camera.h"
@@ -11,9 +12,10 @@
 namespace orbwatch::app::recorder {
 
 /// True: the settings name the camera, or none. Reentrant.
-bool is_recorded(const EventSettings& settings, const RecordedCamera& camera);
+bool is_recorded(const EventSettings& settings, std::string_view camera);
 
-/// Bytes of the camera's part of a picture. Reentrant.
+/// Bytes of the camera's part of a picture; of JPEG data that the camera sends a quarter of the
+/// whole picture's, which USB cameras stay below. Reentrant.
 std::size_t picture_bytes_of(const RecordedCamera& camera);
 
 /// Checks that the ring holds a whole event with one trigger, as far as rates and formats are

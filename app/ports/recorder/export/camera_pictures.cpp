@@ -22,7 +22,7 @@ Result<std::string> camera_in(const std::filesystem::path& recording, const std:
   std::string names;
   for (const std::string& camera : cameras) names.append(names.empty() ? "" : ", ").append(camera);
   if (names.empty()) return fail(recording.string() + ": no pictures");
-  return fail((stated.empty() ? "say --camera" : "there is no camera " + stated) +
+  return fail((stated.empty() ? "a camera must be chosen" : "there is no camera " + stated) +
               "; the recording has pictures of " + names);
 }
 

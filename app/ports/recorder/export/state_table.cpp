@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/ports/recorder/export/csv_text.h"
+#include "app/model/csv_text.h"
 #include "app/ports/recorder/export/export_file.h"
 #include "app/ports/recorder/export/state_values.h"
 #include "app/ports/recorder/recorded_states.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/ports/recorder/export/csv_text.h"
+#include "app/model/csv_text.h"
 #include "app/ports/recorder/messages.h"
 
 /// Signals of the regions and state of the machine in a recorded state. All reentrant.

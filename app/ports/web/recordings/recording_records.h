@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/model/sink/recorded_events.h"
+#include "app/model/sink/recorded_regions.h"
 #include "proc/settings/settings.h"
 
 /// Records of the recorder's events.
@@ -14,7 +15,8 @@ namespace orbwatch::app::web {
 template <class Visitor>
 void visit(Visitor& v, RecordedEvent& event) {
   v.required("name", event.name, "Name, for requests");
-  v.required("trigger", event.trigger, "Kind of the trigger: alarm, command, laser_on or layer");
+  v.required("trigger", event.trigger,
+             "Kind of the trigger: alarm, command, laser_on, layer or line");
   v.required("cause", event.text, "Cause in words");
   v.required("first", event.first, "Time of the first frame set, UTC; empty: not known");
   v.required("triggered", event.triggered, "Time of the trigger's frame set, UTC");
@@ -51,9 +53,19 @@ void visit(Visitor& v, EventQuery& query) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, FramePart& part) {
+  v.required("first", part.first, "Number of the first picture with this part, from 0");
+  v.required("x", part.x, "Left edge in the camera's picture", "px");
+  v.required("y", part.y, "Upper edge", "px");
+  v.required("width", part.width, "Width", "px");
+  v.required("height", part.height, "Height", "px");
+}
+
+template <class Visitor>
 void visit(Visitor& v, RecordedFrames& frames) {
   v.required("camera", frames.camera, "Name of the camera");
   v.required("times", frames.times, "Times of the pictures' frame sets, UTC, ascending");
+  v.required("parts", frames.parts, "Part of the camera's picture that is recorded");
 }
 
 struct FramesAnswer {
@@ -74,6 +86,71 @@ void visit(Visitor& v, FrameQuery& query) {
   v.required("event", query.event, "Name of the event");
   v.required("camera", query.camera, "Name of the camera");
   v.required("frame", query.frame, Range::between(0, 1e6), "Number of the picture, from 0");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RecordedSignal& signal) {
+  v.required("region", signal.region, "Name of the region; empty: of the machine");
+  v.required("figure", signal.figure, "Name of the signal");
+  v.required("unit", signal.unit, "Its unit");
+}
+
+struct SignalsAnswer {
+  std::vector<RecordedSignal> signals;
+};
+template <class Visitor>
+void visit(Visitor& v, SignalsAnswer& answer) {
+  v.required("signals", answer.signals, "Signals with a value in any frame set");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RecordedRegion& region) {
+  v.required("name", region.name, "Name of the region");
+  v.required("camera", region.camera, "Name of a camera that it is measured in");
+  v.required("lines", region.lines,
+             "Outline in the camera's whole picture: lines of pixels [u, v], whose centres are at "
+             "integers");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RecordedRecipe& recipe) {
+  v.required("number", recipe.number, "Number of the recipe");
+  v.required("regions", recipe.regions, "Its regions by camera");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RecordedRecipeChange& change) {
+  v.required("time", change.time, "UTC of the first frame set by the recipe");
+  v.required("recipe", change.recipe, "Number of the recipe; 0: none");
+}
+
+struct RegionsAnswer {
+  std::vector<RecordedRecipeChange> changes;
+  std::vector<RecordedRecipe> recipes;
+};
+template <class Visitor>
+void visit(Visitor& v, RegionsAnswer& answer) {
+  v.required("changes", answer.changes, "Recipes that it was measured by, in their order");
+  v.required("recipes", answer.recipes, "All recipes of the recorded configuration");
+}
+
+struct SignalQuery {
+  std::string event, region, figure;
+};
+template <class Visitor>
+void visit(Visitor& v, SignalQuery& query) {
+  v.required("event", query.event, "Name of the event");
+  v.optional("region", query.region, "Name of the region; without it, the machine's state");
+  v.required("figure", query.figure, "Name of the signal");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RecordedCourse& course) {
+  v.required("unit", course.unit, "Unit of the signal");
+  v.required("times", course.times, "UTC of the first frame set of each step");
+  v.required("frame_sets", course.frame_sets, "Its number");
+  v.required("low", course.low, "Lowest value of each step; null: not valid");
+  v.required("high", course.high, "Highest value of each step");
 }
 
 struct PinBody {

@@ -79,6 +79,36 @@ void RecordingRoutes::frame(const FrameQuery& query, const ExchangePtr& exchange
   });
 }
 
+void RecordingRoutes::signals(const EventQuery& query, const ExchangePtr& exchange) const {
+  read(exchange, [event = query.event](RecordedEvents& events) {
+    auto signals = events.signals(event);
+    if (!signals) return error_response(404, signals.error().message);
+    SignalsAnswer answer{std::move(*signals)};
+    return json_response(json_text(json_of(answer)));
+  });
+}
+
+void RecordingRoutes::signal(const SignalQuery& query, const ExchangePtr& exchange) const {
+  read(exchange, [query](RecordedEvents& events) {
+    auto course = events.course(query.event, query.region, query.figure);
+    if (!course) return error_response(404, course.error().message);
+    return json_response(json_text(json_of(*course)));
+  });
+}
+
+void RecordingRoutes::regions(const EventQuery& query, const ExchangePtr& exchange) const {
+  read(exchange, [event = query.event, regions = regions_](RecordedEvents& events) {
+    const auto recording = events.recording(event);
+    if (!recording) return error_response(404, recording.error().message);
+    auto changes = events.recipes(event);
+    if (!changes) return error_response(404, changes.error().message);
+    auto recipes = regions ? regions(*recording) : std::vector<RecordedRecipe>();
+    if (!recipes) return error_response(409, recipes.error().message);
+    RegionsAnswer answer{std::move(*changes), std::move(*recipes)};
+    return json_response(json_text(json_of(answer)));
+  });
+}
+
 Answered<Done> RecordingRoutes::pin(Change<PinBody>& change) const {
   const auto& [event, is_pinned] = change.body;
   change.after = event + (is_pinned ? " pinned" : " not pinned");

@@ -19,16 +19,20 @@ inline constexpr std::string_view kMcap = "application/octet-stream";
 /// Serves the recorder's events. Thread-safe.
 class RecordingRoutes {
  public:
-  /// `events` null: no events are recorded. `changes`: the thread that waits for the disk; outlives
-  /// it.
-  RecordingRoutes(std::shared_ptr<RecordedEvents> events, Changes& changes)
-      : events_(std::move(events)), changes_(changes) {}
+  /// `events` null: no events are recorded. `regions`: of their recipes. `changes`: the thread that
+  /// waits for the disk; outlives it.
+  RecordingRoutes(std::shared_ptr<RecordedEvents> events, RecordedRegionsReader regions,
+                  Changes& changes)
+      : events_(std::move(events)), regions_(std::move(regions)), changes_(changes) {}
 
   /// An unchanged list costs nothing: its answer is kept.
   void list(const ExchangePtr& exchange) const;
   void picture(const EventQuery& query, const ExchangePtr& exchange) const;
   void frames(const EventQuery& query, const ExchangePtr& exchange) const;
   void frame(const FrameQuery& query, const ExchangePtr& exchange) const;
+  void signals(const EventQuery& query, const ExchangePtr& exchange) const;
+  void signal(const SignalQuery& query, const ExchangePtr& exchange) const;
+  void regions(const EventQuery& query, const ExchangePtr& exchange) const;
   void recording(const EventQuery& query, const ExchangePtr& exchange) const;
   Answered<Done> pin(Change<PinBody>& change) const;
   Answered<Done> remove(Change<EventQuery>& change) const;
@@ -44,6 +48,7 @@ class RecordingRoutes {
             std::function<Response(RecordedEvents& events)> handle) const;
 
   const std::shared_ptr<RecordedEvents> events_;
+  const RecordedRegionsReader regions_;
   const std::shared_ptr<Listed> listed_ =
       std::make_shared<Listed>();  ///< of the thread of changes_
   Changes& changes_;

@@ -5,9 +5,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "tests/app/cli/command_line.h"
-#include "tests/app/cli/replay/recorded_demo.h"
+#include "tests/app/daemon/replay/recorded_demo.h"
 
 /// `orbwatch replay` of what the product's own pipeline measured of the demo.
 namespace orbwatch::tests {
@@ -103,6 +104,50 @@ TEST_F(Replay, NeedsPicturesAndTheConfigurationInTheFile) {
   expect_refused("replay", {"recipe", {"DIR/event.mcap", "--recipe", second}, {"recipe 2"}});
   expect_refused("replay", {"words", {}, {"name one recording"}});
   expect_refused("replay", {"share", {"DIR/event.mcap", "--tolerance", "1"}, {"--tolerance"}});
+}
+
+/// The demo measured by its colour camera.
+app::files::Resolved measured_in_colour() {
+  const std::string recipe =
+      "name = \"light\"\n[[view]]\nname = \"process\"\nmeasured = \"colour\"\nyaw = -115\n"
+      "pitch = -40\nh_fov = 80\nwidth = 640\nheight = 480\n"
+      "[[view.source]]\ncamera = \"colour\"\n[[region]]\nname = \"pool\"\nview = \"process\"\n"
+      "points = [[-190, -130, 178], [-30, -130, 178], [-30, 30, 178], [-190, 30, 178]]\n"
+      "hot_spot_threshold = 80\n[[region.alarm]]\nsignal = \"hot_spot_width\"\n"
+      "high_warning = 1000\n";
+  auto site = app::files::resolve(app::daemon::kShippedFolder / "demo.toml",
+                                  {{app::daemon::kShippedFolder / "demo-recipe.toml", recipe}});
+  EXPECT_TRUE(site) << site.error().message;
+  return site.value_or(app::files::Resolved{});
+}
+
+/// Numbers of listed differences of regions that JPEG explains, and of the others.
+std::pair<std::size_t, std::size_t> differences_in(const std::string& said) {
+  std::istringstream lines(said);
+  std::size_t explained = 0, others = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(",region,") == std::string::npos) continue;
+    ++(line.ends_with(",jpeg") ? explained : others);
+  }
+  return {explained, others};
+}
+
+TEST_F(Replay, JpegExplainsItsDifferencesAndLosslessColourHasNone) {
+  const RecordedDemo colour(40, measured_in_colour(), 0);
+  colour.write(path("lossless.mcap"));
+  ASSERT_EQ(run({"replay", path("lossless.mcap"), "--compare"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("0 of "));
+  EXPECT_THAT(said, testing::Not(HasSubstr("JPEG")));
+  colour.write(path("jpeg.mcap"), true, 90);
+  run({"replay", path("jpeg.mcap"), "--compare"});
+  EXPECT_THAT(said, HasSubstr(" differ no more than JPEG explains"));
+  // A spark that touches the pool may be joined to it by a pixel: no tolerance explains that.
+  const auto [explained, others] = differences_in(said);
+  EXPECT_GT(explained, 200U);
+  EXPECT_LT(others, explained / 5) << said;
+  colour.write(path("poor.mcap"), true, 40);
+  EXPECT_EQ(run({"replay", path("poor.mcap"), "--compare"}), 1) << said;
+  EXPECT_THAT(said, testing::Not(HasSubstr("JPEG")));
 }
 
 }  // namespace

@@ -88,6 +88,9 @@ TEST_F(Archive, ShowsThePartOfAPictureThatIsRecorded) {
   EXPECT_THAT(frames->front().times, testing::ElementsAre("2025-11-28T09:26:40.000000000Z",
                                                           "2025-11-28T09:26:40.040000000Z",
                                                           "2025-11-28T09:26:40.080000000Z"));
+  ASSERT_EQ(frames->front().parts.size(), 1U);
+  EXPECT_EQ(frames->front().parts.front().x, 8);
+  EXPECT_EQ(frames->front().parts.front().height, 30);
   // In any order, and of another event between.
   record_pictures(make(kName + "-2") / kEventFile, 1);
   for (const auto& [name, n] : {std::pair(kName, 2), {kName + "-2", 0}, {kName, 1}}) {

@@ -13,13 +13,19 @@
 
 #include "app/model/status/utc_text.h"
 #include "app/ports/recorder/events/event_summary.h"
+#include "hal/frame/frame_pool.h"
 #include "hal/jpeg/jpeg_decoder.h"
+#include "hal/lines/simulated_lines.h"
+#include "hal/lines/watched_input.h"
 #include "hal/mcap/crc32.h"
+#include "hal/recording/camera_recording.h"
+#include "hal/recording/camera_stream.h"
 #include "hal/recording/image.h"
 #include "tests/app/ports/recorder/events/painted_event.h"
 #include "tests/app/ports/recorder/events/read_event.h"
 #include "tests/app/ports/recorder/events/recorded_machine.h"
 #include "tests/support/reference_data.h"
+#include "tests/support/share.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
@@ -33,6 +39,9 @@ using tests::ReadMessage;
 using tests::RecordedMachine;
 using Numbers = std::vector<std::uint64_t>;
 
+/// Index of the process input that is watched.
+constexpr std::size_t kButton = 1;
+
 class Events : public testing::Test {
  protected:
   RecorderSettings settings() const {
@@ -42,6 +51,7 @@ class Events : public testing::Test {
     events.after = milliseconds(40);
     events.longest = milliseconds(300);
     events.on_laser = events.on_layer = true;
+    events.on_lines = {"button"};
     return {.folder = folder_ / "recordings", .events = events};
   }
 
@@ -54,6 +64,32 @@ class Events : public testing::Test {
     return numbers;
   }
 
+  static std::optional<int> quality_in(const fs::path& file) {
+    const auto pictures = hal::recording::CameraRecording::open(file, "colour");
+    if (!pictures) return 0;
+    return hal::recording::jpeg_quality_in(pictures->index().channels.pictures.metadata);
+  }
+
+  /// Checks that the pictures of the colour camera are replayed as they were decoded.
+  static void expect_replayed(const fs::path& file) {
+    auto pictures = hal::recording::CameraRecording::open(file, "colour");
+    ASSERT_TRUE(pictures) << pictures.error().message;
+    const auto& index = pictures->index();
+    EXPECT_EQ(index.format.format, PixelFormat::Nv12);
+    const int width = index.format.width, height = index.format.height;
+    auto pool = hal::make_frame_pool(PixelFormat::Nv12, width, height, 2);
+    const auto expected = pool.acquire(), read = pool.acquire();
+    const auto in = [&](hal::FrameBuffer& frame) {
+      return MutablePicture::contiguous(PixelFormat::Nv12, width, height, frame.memory, width);
+    };
+    for (std::size_t n = 0; n < index.exposures.size(); ++n) {
+      const auto sent = tests::sent_jpeg(index.exposures[n].sequence, width, height);
+      ASSERT_TRUE(hal::JpegDecoder().decode_nv12(sent, in(*expected)));
+      ASSERT_TRUE(pictures->read(n, in(*read)));
+      EXPECT_TRUE(std::equal(read->memory, read->memory + read->capacity, expected->memory));
+    }
+  }
+
   const orbwatch::tests::TemporaryFolder folder_;
 };
 
@@ -63,18 +99,20 @@ TEST_F(Events, EachTriggerHasItsWholeTimeInOneEventToTheFrame) {
   std::mt19937 random(7);
   const auto roll = [&](unsigned most) { return random() % most; };
   Numbers triggers;
+  const auto cases = static_cast<std::size_t>(orbwatch::tests::share_of(1000));
   machine.status.machine.values.laser_on = 0;
   machine.status.machine.values.layer = 1;
   std::uint64_t n = 1, next = 10;
-  for (; triggers.size() < 300; ++n) {
+  for (; triggers.size() < cases; ++n) {
     bool is_alarm = false;
     machine.status.machine.values.laser_on = 0;
     if (n == next) {
-      const unsigned kind = roll(4);
+      const unsigned kind = roll(5);
       is_alarm = kind == 0;
       if (kind == 1) machine.recorder().request();
       if (kind == 2) machine.status.machine.values.laser_on = 1;
       if (kind == 3) machine.status.machine.values.layer += 1;
+      if (kind == 4) ++machine.status.process_input_edges[kButton];
       triggers.push_back(n);
       // In bursts, and apart: two sets at least, so that the laser is off between.
       next = n + 2 + (roll(2) != 0 ? roll(3) : roll(40));
@@ -90,15 +128,17 @@ TEST_F(Events, EachTriggerHasItsWholeTimeInOneEventToTheFrame) {
   EXPECT_EQ(statistics.pictures_lost, 0U);
   EXPECT_EQ(statistics.recordings, events.size());
   EXPECT_EQ(statistics.recordings + statistics.triggers_joined, triggers.size());
-  EXPECT_GT(statistics.triggers_joined, 40U);
-  ASSERT_GT(events.size(), 40U);
+  EXPECT_GT(statistics.triggers_joined, cases / 8);
+  ASSERT_GT(events.size(), cases / 8);
 
   std::vector<std::pair<std::uint64_t, std::uint64_t>> spans;
+  std::set<std::string> kinds;
   std::size_t overlaps = 0;
   for (const StoredEvent& event : events) {
     ASSERT_TRUE(event.is_finished) << event.name;
     const auto summary = read_summary(event.folder);
     ASSERT_TRUE(summary) << summary.error().message;
+    kinds.insert(summary->trigger);
     auto topics = tests::read_recording(event.folder / kEventFile);
     const Numbers recorded = tests::sequences_of(topics[kThermal]);
     ASSERT_FALSE(recorded.empty());
@@ -119,7 +159,8 @@ TEST_F(Events, EachTriggerHasItsWholeTimeInOneEventToTheFrame) {
     if (!spans.empty() && spans.back().second >= first) ++overlaps;
     spans.emplace_back(first, last);
   }
-  EXPECT_GT(overlaps, 10U);
+  EXPECT_EQ(kinds.size(), kTriggerKinds.size());
+  EXPECT_GT(overlaps, cases / 40);
   for (const std::uint64_t trigger : triggers) {
     EXPECT_TRUE(std::ranges::any_of(spans, [&](const auto& span) {
       return span.first <= RecordedMachine::first_of(trigger, site.events->before) &&
@@ -238,10 +279,45 @@ TEST_F(Events, ColourIsJpegOfTheStatedQualityOrLosslessOnRequest) {
     hal::recording::CompressedImage image;
     ASSERT_TRUE(hal::mcap::decode_cdr(pictures.front().bytes, image));
     EXPECT_EQ(image.format, hal::recording::kColourJpeg);
+    EXPECT_EQ(quality_in(events.front().folder / kEventFile), 90);
     const auto size = hal::JpegDecoder().read_size(image.data);
     ASSERT_TRUE(size) << size.error().message;
     EXPECT_EQ(size->width, RecordedMachine::kWidth);
     EXPECT_EQ(size->height, RecordedMachine::kHeight);
+  }
+}
+
+TEST_F(Events, DataOfAJpegCameraIsRecordedUnchangedAlsoWhereLosslessIsRequested) {
+  for (const bool lossless : {false, true}) {
+    RecorderSettings site = settings();
+    site.folder = folder_ / (lossless ? "lossless" : "jpeg");
+    site.events->lossless = lossless;
+    site.events->cameras = {"colour"};
+    RecordedMachine machine(site);
+    machine.sends_jpeg = true;
+    for (std::uint64_t n = 1; n <= 20; ++n) machine.pass(n, n == 10);
+    EXPECT_GT(machine.statistics().ring_used, 0);
+    machine.record_all();
+    const auto events = machine.events();
+    ASSERT_EQ(events.size(), 1U);
+    const fs::path file = events.front().folder / kEventFile;
+    auto topics = tests::read_recording(file);
+    EXPECT_EQ(topics.count("/orbwatch/colour/image_raw"), 0U);
+    ASSERT_GT(topics[kColour].size(), 4U);
+    const auto sent = [](std::uint64_t number) {
+      return tests::sent_jpeg(number, RecordedMachine::kWidth, RecordedMachine::kHeight);
+    };
+    for (const ReadMessage& message : topics[kColour]) {
+      hal::recording::CompressedImage image;
+      ASSERT_TRUE(hal::mcap::decode_cdr(message.bytes, image));
+      EXPECT_EQ(image.format, "jpeg");
+      EXPECT_TRUE(std::ranges::equal(image.data, sent(message.sequence))) << message.sequence;
+    }
+    const auto picture = sent(10);
+    EXPECT_EQ(tests::text_in(events.front().folder / kEventPicture),
+              std::string(reinterpret_cast<const char*>(picture.data()), picture.size()));
+    EXPECT_EQ(quality_in(file), std::nullopt) << "it is not coded here";
+    expect_replayed(file);
   }
 }
 
@@ -290,6 +366,37 @@ TEST_F(Events, AnUnknownMachineStateIsNoEdge) {
   machine.record_all();
   ASSERT_EQ(machine.events().size(), 1U);
   EXPECT_THAT(machine.events().front().name, testing::EndsWith("Z-layer"));
+}
+
+TEST_F(Events, AnInputThatBecomesActiveIsATriggerAlsoBetweenFrameSets) {
+  hal::SimulatedLines lines{{"IN"}};
+  hal::WatchedInput input(
+      lines, {.address = {.name = "IN"}}, [](const auto&) {}, RecordedMachine::at(0));
+  RecordedMachine machine(settings());
+  const auto pass = [&](std::uint64_t n) {
+    input.read(RecordedMachine::at(n));
+    machine.status.process_input_edges[kButton] = input.state()->edges();
+    machine.pass(n);
+  };
+  const auto pulse = [&](std::uint64_t n) {
+    for (const bool level : {true, false}) lines.drive("IN", level, RecordedMachine::at(n));
+  };
+  pulse(0);
+  for (std::uint64_t n = 1; n <= 20; ++n) pass(n);
+  EXPECT_EQ(machine.statistics().triggers_joined, 0U) << "before the first frame set";
+  for (int count = 0; count < 3; ++count) pulse(20);
+  machine.status.process_input_edges[0] = 7;  // the other line
+  for (std::uint64_t n = 21; n <= 40; ++n) pass(n);
+  machine.record_all();
+  const auto events = machine.events();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(machine.statistics().triggers_joined, 2U);
+  EXPECT_THAT(events.front().name, testing::EndsWith("Z-line"));
+  const auto summary = read_summary(events.front().folder);
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_EQ(summary->trigger, "line");
+  EXPECT_EQ(summary->text, "line button became active");
+  EXPECT_EQ(summary->frame_set, 21U);
 }
 
 TEST_F(Events, AnEventThatCannotBeWrittenIsCountedAndTheNextOneIsRecorded) {

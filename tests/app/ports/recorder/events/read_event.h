@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,6 +46,12 @@ inline std::map<std::string, std::vector<ReadMessage>> read_recording(
     std::ranges::stable_sort(messages, {}, &ReadMessage::log_time);
   }
   return topics;
+}
+
+/// Contents of a file.
+inline std::string text_in(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Numbers of the frame sets of process states.

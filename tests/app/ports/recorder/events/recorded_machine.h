@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/ports/recorder/events/event_recorder.h"
+#include "tests/app/ports/recorder/events/jpeg_frame.h"
 #include "tests/app/ports/recorder/events/painted_frame.h"
 
 namespace orbwatch::tests {
@@ -56,7 +57,9 @@ class RecordedMachine {
     set.stamp = at(number);
     set.frames[0] = painted_frame(number, 0, at(number), kWidth, kHeight);
     set.held[1] = number % 3 == 0;
-    set.frames[1] = painted_frame(number, 1, at(number), kWidth, kHeight, PixelFormat::Nv12);
+    set.frames[1] = sends_jpeg
+                        ? jpeg_frame(number, at(number), kWidth, kHeight)
+                        : painted_frame(number, 1, at(number), kWidth, kHeight, PixelFormat::Nv12);
     recorder_.accept_frames(set);
     status.frame_set = number;
     status.stamp = set.stamp;
@@ -97,6 +100,7 @@ class RecordedMachine {
   }
 
   app::Status status;
+  bool sends_jpeg = false;  ///< the colour camera sends JPEG, see jpeg_frame()
 
  private:
   /// Ahead of the clock, which therefore ends no event.
@@ -115,7 +119,7 @@ class RecordedMachine {
   }
 
   const app::RecorderSettings settings_;
-  const app::StatusNames names_{{"thermal", "colour"}, {}, {}};
+  const app::StatusNames names_{{"thermal", "colour"}, {}, {}, {"door", "button"}};
   const app::RecordedTexts texts_{{{"site.toml", "rig = \"rig.toml\""}}, {{"orbwatch", "0.1.0"}}};
   app::recorder::RecorderCounters counters_;
   app::recorder::EventRecorder recorder_;

@@ -48,6 +48,14 @@ TEST(RingSize, OnlyTheNamedCamerasCount) {
   EXPECT_THAT(refused.error().message, HasSubstr("there is no camera top"));
 }
 
+TEST(RingSize, DataOfAJpegCameraCountsAsAQuarterOfTheWholePicture) {
+  RecordedCamera sends = camera("left");
+  sends.format.format = PixelFormat::Nv12;
+  sends.format.has_jpeg = true;
+  EXPECT_TRUE(check_ring(settings(72), {sends}));
+  EXPECT_FALSE(check_ring(settings(71), {sends}));
+}
+
 TEST(RingSize, APictureMustFitIntoARecording) {
   RecordedCamera large = camera("left");
   large.ball = {0, 0, 4096, 4096};

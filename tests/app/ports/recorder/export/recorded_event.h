@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -73,10 +72,5 @@ class RecordedEventTest : public testing::Test {
   std::filesystem::path recording;
   std::vector<std::uint64_t> sets;  ///< frame sets of the event
 };
-
-inline std::string text_in(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace orbwatch::tests

@@ -9,7 +9,8 @@ import { texts } from "../texts.js";
 import { Viewer } from "./viewer.js";
 
 const kAgainMs = 2000;
-const kKinds = ["alarm", "command", "laser_on", "layer"];
+const kKinds = ["alarm", "command", "laser_on", "layer", "line"];
+const kNamed = ["alarm", "line"]; // kinds whose cause has a name
 const kMebibyte = 2 ** 20;
 
 const pathOf = (file, name) => `api/v1/recordings/${file}?${new URLSearchParams({ event: name })}`;
@@ -43,7 +44,7 @@ class Card {
     const said = texts.recordings, moment = Date.parse(event.triggered || event.first);  // NaN without a summary
     this.#event = event;
     this.isPinned = event.is_pinned;
-    setText(this.cause, event.trigger === "alarm" ? event.cause : said.kinds[event.trigger] ?? event.cause);
+    setText(this.cause, kNamed.includes(event.trigger) ? event.cause : said.kinds[event.trigger] ?? event.cause);
     setText(this.when, moment ? momentText(moment) : "");
     setText(this.machine, said.machine(event.part, event.layer));
     setText(this.about, said.about(event.pictures, decimalText(event.bytes / kMebibyte, 1)));
@@ -70,8 +71,8 @@ export class Recordings {
   #tag = ""; // of the list in #events
   #again = 0;
 
-  // `may(role)`: true if the user may do what the role may.
-  constructor(root, may) {
+  // `figures`: descriptions of figures by kind of component. `may(role)`: true if the user may do what the role may.
+  constructor(root, figures, may) {
     this.root = root;
     this.said = element("p", { role: "status" });
     this.refused = element("p", { role: "alert", className: "wrong" });
@@ -88,7 +89,7 @@ export class Recordings {
     this.filters.addEventListener("input", () => this.#show());
     this.filters.addEventListener("submit", (event) => event.preventDefault());
     this.list = element("ul", { id: "events" });
-    this.viewer = new Viewer();
+    this.viewer = new Viewer(figures);
     const asked = {
       change: (path, body) => this.#tell(post(`api/v1/${path}`, body)),
       look: (event, title) => this.viewer.open(event, title),

@@ -10,7 +10,7 @@
 #include "hal/mcap/reader.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 
 /// Texts in place of recorded recipes, by the number of the recipe.
 using OtherRecipes = std::map<std::uint16_t, std::string>;
@@ -21,4 +21,4 @@ using OtherRecipes = std::map<std::uint16_t, std::string>;
 Result<files::Resolved> recorded_site(const std::filesystem::path& file, hal::mcap::Reader& reader,
                                       const OtherRecipes& others = {});
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

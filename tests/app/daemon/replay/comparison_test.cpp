@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/replay/comparison.h"
+#include "app/daemon/replay/comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "app/model/status/status.h"
 
 /// Recorded and computed states of the process, compared.
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 namespace {
 
 using recorder::ProcessState;
@@ -33,7 +33,7 @@ std::vector<std::string> differences(const std::vector<ProcessState>& recorded,
                                      const std::vector<ProcessState>& computed,
                                      double tolerance = 0) {
   std::vector<std::string> figures;
-  Comparison comparison(tolerance, [&](const Difference& difference) {
+  Comparison comparison(tolerance, {}, [&](const Difference& difference) {
     figures.push_back(difference.kind + " " + difference.figure + " " +
                       std::to_string(difference.utc));
   });
@@ -88,10 +88,49 @@ TEST(Comparison, AnAlarmMayChangeASetEarlierOrLater) {
 TEST(Comparison, NamesWhatOneSideHasAlone) {
   ProcessState other = state(kMeasured, 5, 0);
   other.components[1].name = "seam";
-  Comparison comparison(0, [](const Difference&) { FAIL(); });
+  Comparison comparison(0, {}, [](const Difference&) { FAIL(); });
   comparison.add(0, state(kMeasured, 5, 0), other);
   EXPECT_EQ(comparison.finish().missing, (std::set<std::string>{"region seam", "region weld"}));
 }
 
+/// A state with the hot spot's width in a region, and an alarm on it.
+ProcessState width_of(double width, double alarm) {
+  ProcessState state;
+  state.recipe = 3;
+  state.components.push_back({"region",
+                              "weld",
+                              {{"quality", kMeasured, "", ""},
+                               {"hot_spot_width", width, "mm", ""},
+                               {"spatter_speed", width, "deg/s", ""}}});
+  state.components.push_back(
+      {"alarm", "1, weld: hot_spot_width", {{"state", alarm, "", ""}, {"value", width, "mm", ""}}});
+  return state;
+}
+
+TEST(Comparison, NamesDifferencesThatJpegExplains) {
+  const auto compare = [](const JpegQualities& qualities, double alarm) {
+    std::vector<std::string> explained;
+    Comparison comparison(0, qualities, [&](const Difference& difference) {
+      explained.push_back((difference.is_of_jpeg ? "jpeg " : "") + difference.figure);
+    });
+    // An alarm's values are settled by the next set.
+    comparison.add(0, width_of(10, 0), width_of(10.1, alarm));
+    comparison.add(1, width_of(12, 0), width_of(12, 0));
+    const ComparisonCounts& counts = comparison.finish();
+    EXPECT_EQ(counts.differences + counts.of_jpeg, explained.size());
+    return explained;
+  };
+  EXPECT_EQ(compare({{{3, "weld"}, 90}}, 0),
+            (Figures{"jpeg hot_spot_width", "spatter_speed", "jpeg value"}));
+  EXPECT_EQ(compare({{{3, "weld"}, 90}}, 2),
+            (Figures{"jpeg hot_spot_width", "spatter_speed", "state", "jpeg value"}))
+      << "no state of an alarm";
+  for (const JpegQualities& none :
+       {JpegQualities{}, JpegQualities{{{3, "weld"}, 75}}, JpegQualities{{{3, "other"}, 90}},
+        JpegQualities{{{1, "weld"}, 90}}}) {
+    EXPECT_EQ(compare(none, 0), (Figures{"hot_spot_width", "spatter_speed", "value"}));
+  }
+}
+
 }  // namespace
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/replay/recorded_site.h"
+#include "app/daemon/recordings/recorded_site.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "app/files/runtime/calibration_file.h"
 #include "app/model/sink/recorded_texts.h"
 
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ Result<files::Resolved> recorded_site(const fs::path& file, hal::mcap::Reader& r
   return site;
 }
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

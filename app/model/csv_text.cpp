@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/csv_text.h"
+#include "app/model/csv_text.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace orbwatch::app::recorder {
+namespace orbwatch::app {
 
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
@@ -20,4 +20,4 @@ std::string csv_number(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-}  // namespace orbwatch::app::recorder
+}  // namespace orbwatch::app

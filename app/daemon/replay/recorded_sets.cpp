@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/replay/recorded_sets.h"
+#include "app/daemon/replay/recorded_sets.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "hal/recording/camera_channels.h"
+#include "hal/recording/camera_stream.h"
+#include "hal/recording/messages.h"
 
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 namespace {
 
 namespace recording = hal::recording;
@@ -19,7 +21,25 @@ bool has_camera(const hal::mcap::Summary& summary, const std::string& camera) {
   return std::ranges::find(cameras, camera) != cameras.end();
 }
 
+std::size_t stated_states(const hal::mcap::Summary& summary) {
+  std::size_t count = 0;
+  for (const auto& [id, messages] : summary.message_counts) {
+    const auto channel = summary.channels.find(id);
+    const bool is_state =
+        channel != summary.channels.end() &&
+        recording::type_of(summary, channel->second) == recording::SetNumbers::kType;
+    count += is_state ? messages : 0;
+  }
+  return count;
+}
+
 }  // namespace
+
+RecordedSets::RecordedSets(recorder::RecordedStates states, recording::RecordedClock clock)
+    : states_(std::move(states)),
+      clock_(clock),
+      stated_(stated_states(states_.reader().summary())),
+      end_(states_.reader().summary().statistics().message_end_time) {}
 
 Result<RecordedSets> RecordedSets::open(const std::filesystem::path& file,
                                         const std::vector<std::string>& cameras,
@@ -48,6 +68,17 @@ std::vector<hal::StreamFormat> RecordedSets::formats() const {
     formats.push_back(camera.pictures ? camera.pictures->index().format : hal::StreamFormat{});
   }
   return formats;
+}
+
+std::vector<std::optional<int>> RecordedSets::jpeg_qualities() const {
+  std::vector<std::optional<int>> qualities;
+  for (const Camera& camera : cameras_) {
+    const auto* const channels = camera.pictures ? &camera.pictures->index().channels : nullptr;
+    const bool is_jpeg = channels != nullptr && channels->is_jpeg;
+    qualities.push_back(is_jpeg ? recording::jpeg_quality_in(channels->pictures.metadata)
+                                : std::nullopt);
+  }
+  return qualities;
 }
 
 /// The next state, without frames.
@@ -121,4 +152,4 @@ Result<bool> RecordedSets::add_frame(std::size_t number, RecordedSet& set) {
   return true;
 }
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

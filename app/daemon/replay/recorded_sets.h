@@ -16,7 +16,7 @@
 #include "hal/sync/frame_matcher.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 
 /// A frame set of a recording, as the pipeline had it, and what was reported of it.
 struct RecordedSet {
@@ -38,6 +38,10 @@ class RecordedSets {
   /// Formats by camera; those without pictures in the recording have no size.
   std::vector<hal::StreamFormat> formats() const;
 
+  /// Quality of JPEG by camera, where the recorder coded it; nullopt: the camera's own data, or
+  /// lossless.
+  std::vector<std::optional<int>> jpeg_qualities() const;
+
   /// The next set; nullopt behind the last one. Its frames must be released before the next call.
   /// Sets without a picture are counted and left out. Errors: damaged; states that go backwards.
   Result<std::optional<RecordedSet>> next();
@@ -46,6 +50,10 @@ class RecordedSets {
   std::size_t without_pictures() const { return without_pictures_; }
   /// States so far.
   std::size_t states() const { return states_.count(); }
+  /// States of the whole recording as its summary states them; 0: it does not.
+  std::size_t stated() const { return stated_; }
+  /// Stamp of the last message, ns since 1970.
+  std::uint64_t end() const { return end_; }
 
  private:
   struct Camera {
@@ -56,8 +64,7 @@ class RecordedSets {
     hal::Frame newest;
   };
 
-  RecordedSets(recorder::RecordedStates states, hal::recording::RecordedClock clock)
-      : states_(std::move(states)), clock_(clock) {}
+  RecordedSets(recorder::RecordedStates states, hal::recording::RecordedClock clock);
 
   Result<std::optional<RecordedSet>> next_state();
   Result<bool> add_frames(RecordedSet& set);
@@ -68,6 +75,8 @@ class RecordedSets {
   std::vector<Camera> cameras_;
   std::uint64_t newest_ = 0;  ///< stamp
   std::size_t without_pictures_ = 0;
+  std::size_t stated_ = 0;
+  std::uint64_t end_ = 0;
 };
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/replay/set_meter.h"
+#include "app/daemon/replay/set_meter.h"
 
 #include <algorithm>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "app/daemon/site/site_plan.h"
 
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 namespace {
 
-using Recipes = std::vector<std::unique_ptr<pipeline::CompiledRecipe>>;
+using CompiledRecipes = std::vector<std::unique_ptr<pipeline::CompiledRecipe>>;
 
-std::vector<pipeline::ViewBuffers::Views> views_of(const Recipes& recipes) {
+std::vector<pipeline::ViewBuffers::Views> views_of(const CompiledRecipes& recipes) {
   std::vector<pipeline::ViewBuffers::Views> views;
   for (const auto& recipe : recipes) views.emplace_back(recipe->plan().views);
   return views;
@@ -34,35 +33,31 @@ bool is_watched(const pipeline::CompiledRecipe& recipe, bool recorded) {
   return recorded;
 }
 
-std::unique_ptr<pipeline::WorkerPool> all_cores() {
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  return std::make_unique<pipeline::WorkerPool>(cores - 1);
-}
-
 }  // namespace
 
-Result<SetMeter> SetMeter::make(const files::Resolved& site,
-                                std::vector<hal::StreamFormat> formats) {
+Result<SetMeter> SetMeter::make(const files::Resolved& site, std::vector<hal::StreamFormat> formats,
+                                std::size_t threads) {
   for (std::size_t k = 0; k < formats.size(); ++k) {
-    if (formats[k].width == 0) formats[k] = daemon::expected_format(site, k);
+    if (formats[k].width == 0) formats[k] = expected_format(site, k);
   }
-  const auto plan = daemon::SitePlan::make(site, formats);
+  const auto plan = SitePlan::make(site, formats);
   if (!plan) return tl::unexpected(plan.error());
-  Recipes recipes;
+  CompiledRecipes recipes;
   for (std::size_t k = 0; k < plan->recipes.size(); ++k) {
     auto recipe = pipeline::CompiledRecipe::make(plan->recipes[k], plan->scene);
-    if (!recipe) return tl::unexpected(daemon::in_recipe(site, k, recipe.error()));
+    if (!recipe) return tl::unexpected(in_recipe(site, k, recipe.error()));
     recipes.push_back(std::move(*recipe));
   }
-  return SetMeter(std::move(recipes), formats);
+  return SetMeter(std::move(recipes), formats, threads);
 }
 
-SetMeter::SetMeter(Recipes recipes, const std::vector<hal::StreamFormat>& formats)
+SetMeter::SetMeter(CompiledRecipes recipes, const std::vector<hal::StreamFormat>& formats,
+                   std::size_t threads)
     : recipes_(std::move(recipes)),
       buffers_(std::make_unique<pipeline::ViewBuffers>(pipeline::ViewBuffers::Views(),
                                                        views_of(recipes_), KeptViews{})),
       pyramids_(formats),
-      workers_(all_cores()),
+      workers_(std::make_unique<pipeline::WorkerPool>(threads)),
       status_(std::make_unique<Status>()) {}
 
 Result<const Status*> SetMeter::measure(const hal::FrameSet& set, std::uint16_t number,
@@ -97,4 +92,4 @@ Result<const Status*> SetMeter::measure(const hal::FrameSet& set, std::uint16_t 
   return &status;
 }
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/replay/comparison.h"
+#include "app/daemon/replay/comparison.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,9 @@
 #include <string_view>
 #include <utility>
 
-namespace orbwatch::app::cli {
+#include "app/daemon/replay/jpeg_tolerance.h"
+
+namespace orbwatch::app::daemon {
 namespace {
 
 using recorder::ComponentFigures;
@@ -17,13 +19,15 @@ using recorder::ProcessState;
 constexpr std::string_view kRegion = "region", kAlarm = "alarm";
 /// Figure of an alarm: the time since it changed until it was reported.
 constexpr std::string_view kSince = "since_age";
+/// Figure of an alarm: the value of its signal.
+constexpr std::string_view kValue = "value";
 
 bool is_compared(const ComponentFigures& component) {
   return component.kind == kRegion || component.kind == kAlarm;
 }
 
-const ComponentFigures* find(const ProcessState& state, std::string_view kind,
-                             std::string_view name) {
+const ComponentFigures* component_in(const ProcessState& state, std::string_view kind,
+                                     std::string_view name) {
   const auto found = std::ranges::find_if(state.components, [&](const ComponentFigures& component) {
     return component.kind == kind && component.name == name;
   });
@@ -38,7 +42,7 @@ std::optional<double> value_of(const ComponentFigures& component, std::string_vi
 
 /// The value in a state; NaN: it has none.
 double value_in(const ProcessState& state, const Difference& place) {
-  const auto* const component = find(state, place.kind, place.name);
+  const auto* const component = component_in(state, place.kind, place.name);
   if (component == nullptr) return std::nan("");
   return value_of(*component, place.figure).value_or(std::nan(""));
 }
@@ -55,27 +59,34 @@ void Comparison::add(std::uint64_t utc, const ProcessState& recorded,
   ++counts_.sets;
   for (const ComponentFigures& component : recorded.components) {
     if (!is_compared(component)) continue;
-    const auto* const other = find(computed, component.kind, component.name);
+    const auto* const other = component_in(computed, component.kind, component.name);
     if (other == nullptr) {
-      counts_.missing.insert(component.kind + " " + component.name);
+      add_missing(component);
     } else if (component.kind == kRegion && !is_measured(component)) {
       ++counts_.not_measured;
     } else {
       compare(component, *other,
-              {utc, recorded.frame_set, component.kind, component.name, {}, 0, 0});
+              {utc, recorded.frame_set, component.kind, component.name, {}, 0, 0, false},
+              recorded.recipe);
     }
   }
   for (const ComponentFigures& component : computed.components) {
-    if (is_compared(component) && find(recorded, component.kind, component.name) == nullptr) {
-      counts_.missing.insert(component.kind + " " + component.name);
+    if (is_compared(component) &&
+        component_in(recorded, component.kind, component.name) == nullptr) {
+      add_missing(component);
     }
   }
   before_ = recorded;
 }
 
+void Comparison::add_missing(const ComponentFigures& component) {
+  if (counts_.missing.size() == ComparisonCounts::kMostMissing) return;
+  counts_.missing.insert(component.kind + " " + component.name);
+}
+
 /// Compares all figures that both have, but not the time since an alarm changed.
 void Comparison::compare(const ComponentFigures& recorded, const ComponentFigures& computed,
-                         Difference place) {
+                         Difference place, std::uint16_t recipe) {
   for (const Figure& figure : recorded.figures) {
     const auto value = value_of(computed, figure.name);
     if (!value || figure.name == kSince) continue;
@@ -84,6 +95,7 @@ void Comparison::compare(const ComponentFigures& recorded, const ComponentFigure
     place.figure = figure.name;
     place.recorded = figure.value;
     place.computed = *value;
+    place.is_of_jpeg = is_of_jpeg(place, recipe);
     const bool is_alarm = place.kind == kAlarm;
     if (is_alarm && counts_.sets > 1 && is_same(value_in(before_, place), *value)) continue;
     if (is_alarm) {
@@ -107,8 +119,26 @@ const ComparisonCounts& Comparison::finish() {
 }
 
 void Comparison::report(const Difference& difference) {
-  ++counts_.differences;
+  ++(difference.is_of_jpeg ? counts_.of_jpeg : counts_.differences);
   on_difference_(difference);
+}
+
+/// True: JPEG explains the difference of a region's signal, or of the value of its alarm.
+bool Comparison::is_of_jpeg(const Difference& difference, std::uint16_t recipe) const {
+  const std::string_view name = difference.name;
+  std::string region(name);
+  std::string_view signal = difference.figure;
+  if (difference.kind == kAlarm) {
+    // "1, pool: hot_spot_width"
+    const std::size_t comma = name.find(", "), colon = name.rfind(": ");
+    const bool is_value = signal == kValue && comma < colon && colon != std::string_view::npos;
+    if (!is_value) return false;
+    region = name.substr(comma + 2, colon - comma - 2);
+    signal = name.substr(colon + 2);
+  }
+  const auto quality = qualities_.find({recipe, region});
+  return quality != qualities_.end() &&
+         is_explained_by_jpeg(signal, quality->second, difference.recorded, difference.computed);
 }
 
 bool Comparison::is_same(double recorded, double computed) const {
@@ -119,4 +149,4 @@ bool Comparison::is_same(double recorded, double computed) const {
   return recorded == computed || std::abs(recorded - computed) <= tolerance_ * larger;
 }
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

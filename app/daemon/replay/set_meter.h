@@ -15,14 +15,16 @@
 #include "hal/sync/frame_set.h"
 #include "proc/image/result.h"
 
-namespace orbwatch::app::cli {
+namespace orbwatch::app::daemon {
 
 /// Measures frame sets as the pipeline does, one after another, without cameras and sinks.
 /// Thread-bound.
 class SetMeter {
  public:
-  /// `formats`: by camera. Errors: those of SitePlan::make() and CompiledRecipe::make().
-  static Result<SetMeter> make(const files::Resolved& site, std::vector<hal::StreamFormat> formats);
+  /// `formats`: by camera; `threads`: workers beside the calling thread. Errors: those of
+  /// SitePlan::make() and CompiledRecipe::make().
+  static Result<SetMeter> make(const files::Resolved& site, std::vector<hal::StreamFormat> formats,
+                               std::size_t threads);
 
   /// Regions and alarms of the set, by the recipe of that number, until the next call.
   /// `process_active`: for recipes that do not detect it; `now`: for the delays of alarms. Error:
@@ -32,7 +34,7 @@ class SetMeter {
 
  private:
   SetMeter(std::vector<std::unique_ptr<pipeline::CompiledRecipe>> recipes,
-           const std::vector<hal::StreamFormat>& formats);
+           const std::vector<hal::StreamFormat>& formats, std::size_t threads);
 
   std::vector<std::unique_ptr<pipeline::CompiledRecipe>> recipes_;
   std::unique_ptr<pipeline::ViewBuffers> buffers_;
@@ -42,4 +44,4 @@ class SetMeter {
   pipeline::CompiledRecipe* recipe_ = nullptr;  ///< measured last
 };
 
-}  // namespace orbwatch::app::cli
+}  // namespace orbwatch::app::daemon

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// Fields of CSV (RFC 4180). All reentrant.
-namespace orbwatch::app::recorder {
+namespace orbwatch::app {
 
 /// A text, in quotation marks where it needs them.
 std::string csv_field(std::string_view text);
@@ -13,4 +13,4 @@ std::string csv_field(std::string_view text);
 /// The shortest text that is this number again; empty for NaN, which is not valid.
 std::string csv_number(double value);
 
-}  // namespace orbwatch::app::recorder
+}  // namespace orbwatch::app
