@@ -50,6 +50,7 @@ CliResult<std::string> doctor_command(const Arguments& arguments);
 CliResult<std::string> lines_command(const Arguments& arguments);
 CliResult<std::string> password_command(const Arguments& arguments);
 CliResult<std::string> events_command(const Arguments& arguments);
+CliResult<std::string> update_command(const Arguments& arguments);
 CliResult<std::string> list_command(const Arguments& arguments);
 
 // Subjects of describe_command; they write no file except that of -o.

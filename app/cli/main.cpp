@@ -41,6 +41,7 @@ constexpr std::array kCommandTable{
                backup_command},
     Subcommand{"restore", "restore a backup, also on another device", restore_command},
     Subcommand{"reset", "put the delivered configuration back", reset_command},
+    Subcommand{"update", "install an update on a device that runs an image", update_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
     Subcommand{"events", "list, show, pin, delete and export recorded events", events_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},
@@ -52,6 +53,7 @@ constexpr std::array kCommandTable{
 std::string exit_statuses_help() {
   std::string help;
   for (const ExitStatusInfo& info : kExitStatuses) {
+    if (info.of_orbwatch.empty()) continue;
     help += "  " + std::to_string(static_cast<int>(info.status)) + "  " +
             std::string(info.of_orbwatch) + "\n";
   }

@@ -34,7 +34,7 @@ namespace orbwatch::app::files {
 /// - takes commands: commanders(), the clients that may command through it;
 /// - has keys or certificates: check_keys();
 /// - listens on TCP ports: listening_ports();
-/// - records pictures: check_recorded();
+/// - records pictures: check_recorded(), records_pictures();
 /// - serves a page: page_address();
 /// - receives from other appliances, or shows them: fills_fleet(), shows_fleet().
 using SinkSettings = std::tuple<ConsoleSettings,   //

@@ -52,8 +52,9 @@ class Resolver {
     check_names(site_.cameras, "camera", finding_);
     check_names(site_.lines, "line", finding_);
     check_names(site_.views, "view", finding_);
-    resolved_.names = {names(site_.cameras), names(site_.views), {}};
+    resolved_.names = {names(site_.cameras), names(site_.views), {}, process_inputs()};
     resolve_lines();
+    resolve_events();
     resolve_cameras();
     resolve_display_views();
     resolve_recipes();
@@ -81,6 +82,32 @@ class Resolver {
         finding_.refuse(line.line, "line.name", "\"software\" is the trigger_source of commands");
       }
       if (!line.source.empty()) check_trigger_line(line.line, "line.source", line.source);
+    }
+  }
+
+  std::vector<std::string> process_inputs() const {
+    std::vector<std::string> inputs;
+    for (const auto& line : site_.lines) {
+      if (line.use == LineUse::ProcessInput) inputs.push_back(line.name);
+    }
+    return inputs;
+  }
+
+  std::string no_process_input(const std::string& name) const {
+    return "there is no line \"" + name +
+           "\" with use process_input; lines: " + joined_names(site_.lines);
+  }
+
+  /// Checks the lines that trigger recordings.
+  void resolve_events() {
+    const auto& events = std::get<RecorderSettings>(site_.sinks).events;
+    if (!events) return;
+    for (const std::string& name : events->on_lines) {
+      if (std::ranges::find(resolved_.names.process_inputs, name) !=
+          resolved_.names.process_inputs.end()) {
+        continue;
+      }
+      finding_.refuse(events->line, "recorder.events.on_lines", no_process_input(name));
     }
   }
 
@@ -194,15 +221,10 @@ class Resolver {
   }
 
   void resolve_process_input(Reference& input, Finding& finding) {
-    input.index = 0;
-    for (const auto& line : site_.lines) {
-      if (line.use != LineUse::ProcessInput) continue;
-      if (line.name == input.name) return;
-      ++input.index;
-    }
-    finding.refuse(1, "process_input",
-                   "there is no line \"" + input.name +
-                       "\" with use process_input; lines: " + joined_names(site_.lines));
+    const auto& inputs = resolved_.names.process_inputs;
+    const auto found = std::ranges::find(inputs, input.name);
+    input.index = static_cast<std::size_t>(found - inputs.begin());
+    if (found == inputs.end()) finding.refuse(1, "process_input", no_process_input(input.name));
   }
 
   /// Every recipe must set the same controls, and the configuration none of them; otherwise a

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/model/status/condition.h"
 #include "app/service/service_manager.h"
 
 namespace orbwatch::app {
@@ -36,27 +37,31 @@ void ProgressNotice::stop() {
 
 void ProgressNotice::accept(const Status& status) {
   const auto now = hal::Clock::now();
-  if (state_ == status.state && now - sent_ < pause_) return;
+  const Progress progress{status.state, status.interface_faults};
+  if (last_ == progress && now - sent_ < pause_) return;
   if (is_supervised_ && !is_supervised_()) return;
-  state_ = status.state;
+  last_ = progress;
   sent_ = now;
-  progress_.put(status.state);
+  progress_.put(progress);
 }
 
-std::string ProgressNotice::text(SystemState state) const {
-  return std::string(operator_text(state)) + (remark_.empty() ? "" : "; " + remark_);
+std::string ProgressNotice::text(const Progress& progress) const {
+  SystemStatus system;
+  system.state = progress.state;
+  system.interface_faults = progress.interface_faults;
+  return condition_of(system).text + (remark_.empty() ? "" : "; " + remark_);
 }
 
 void ProgressNotice::send() {
-  std::optional<SystemState> sent;
-  while (const auto state = progress_.take()) {
-    const bool is_changed = sent != *state;
+  std::optional<Progress> sent;
+  while (const auto progress = progress_.take()) {
+    const bool is_changed = sent != *progress;
     if (!sent) {
-      notify(ready_message(text(*state)));
+      notify(ready_message(text(*progress)));
     } else {
-      notify("WATCHDOG=1" + (is_changed ? "\nSTATUS=" + text(*state) : std::string()));
+      notify("WATCHDOG=1" + (is_changed ? "\nSTATUS=" + text(*progress) : std::string()));
     }
-    sent = *state;
+    sent = *progress;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,8 +18,8 @@ namespace orbwatch::app {
 /// not fed while the process is unsupervised, even if the pipeline works.
 class ProgressNotice : public Sink {
  public:
-  /// `remark` follows the state in the service's status; empty: none. The pipeline calls
-  /// `is_supervised`; null: always supervised.
+  /// The service's status states the system's state and whether an interface has a fault, then
+  /// `remark`, if any. The pipeline calls `is_supervised`; null: always supervised.
   explicit ProgressNotice(std::string remark = {}, std::function<bool()> is_supervised = nullptr);
   ~ProgressNotice() override { stop(); }
 
@@ -28,17 +29,24 @@ class ProgressNotice : public Sink {
   void accept(const Status& status) override;
 
  private:
-  std::string text(SystemState state) const;
+  /// Copied to the thread that sends.
+  struct Progress {
+    SystemState state;
+    std::uint32_t interface_faults;
+    bool operator==(const Progress&) const = default;
+  };
+
+  std::string text(const Progress& progress) const;
   void send();
 
   const std::string remark_;
   const std::function<bool()> is_supervised_;
-  const hal::Clock::duration pause_;  ///< pause between two messages of the same state
-  // State that was sent last; used by the pipeline's thread only.
-  std::optional<SystemState> state_;
+  const hal::Clock::duration pause_;  ///< pause between two messages of the same progress
+  // Progress that was sent last; used by the pipeline's thread only.
+  std::optional<Progress> last_;
   hal::TimePoint sent_{};
 
-  hal::Mailbox<SystemState> progress_;
+  hal::Mailbox<Progress> progress_;
   hal::Thread thread_;  ///< sends the messages, which may wait for their reader
 };
 

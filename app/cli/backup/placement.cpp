@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t kPermissions = 07777;
+constexpr mode_t kModes = 0777;  // without set-user-ID, set-group-ID and sticky bits
 /// Most bytes of the undo file.
 constexpr std::size_t kMostKept = 2 * kMostBytes;
 /// Entry of the undo file with the names of files that did not exist, each with a line's end.
@@ -163,12 +164,18 @@ Result<> DiskChanges::remove(const fs::path& path) {
 
 Result<> DiskChanges::make_folder(const fs::path& folder) {
   struct stat above {};
-  constexpr mode_t kUsual = 0755;
   if (::stat(folder.parent_path().c_str(), &above) != 0) return cannot(folder, "made");
-  if (::mkdir(folder.c_str(), kUsual) != 0) return cannot(folder, "made");
+  // The kernel passes the set-group-ID bit on, which the service may not set itself.
+  const mode_t mask = ::umask(0);
+  const int made = ::mkdir(folder.c_str(), above.st_mode & kModes);
+  ::umask(mask);
+  if (made != 0) return cannot(folder, "made");
   const bool is_given =
       ::geteuid() != 0 || ::lchown(folder.c_str(), above.st_uid, above.st_gid) == 0;
-  if (!is_given || ::chmod(folder.c_str(), above.st_mode & kPermissions) != 0) {
+  struct stat about {};
+  const bool is_right = ::lstat(folder.c_str(), &about) == 0 &&
+                        (about.st_mode & kPermissions) == (above.st_mode & kPermissions);
+  if (!is_given || (!is_right && ::chmod(folder.c_str(), above.st_mode & kPermissions) != 0)) {
     return cannot(folder, "given its owner");
   }
   return hal::sync_folder(folder.parent_path());

@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/cli/backup/collect.h"
+#include "app/cli/backup/pending_restore.h"
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
 #include "app/cli/backup/service_stop.h"
+#include "app/cli/backup/site_places.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/files/resolve.h"
@@ -33,6 +37,7 @@ struct ResetOptions {
   fs::path delivered = ORBWATCH_DELIVERED_FOLDER;
   bool factory = false;
   bool check = false;
+  bool at_start = false;
 };
 
 bool is_recording(const std::string& name) {
@@ -71,12 +76,31 @@ Result<std::vector<std::string>> removed_names(const fs::path& config,
   return names;
 }
 
+/// Replaces the files, now or at the start of orbwatchd. Returns a line about it.
+Result<std::string> reset_files(const ResetOptions& o, const backup::Restoration& restoration,
+                                const std::vector<std::string>& removed) {
+  backup::DiskChanges disk;
+  if (o.at_start) {
+    // The daemon, which runs, writes some of these at its end.
+    std::set<std::string> names(removed.begin(), removed.end());
+    for (std::string& name : backup::history_names()) names.insert(std::move(name));
+    return keep_pending(restoration.places, restoration.files, {names.begin(), names.end()}, disk)
+        .map([] { return std::string("reset when orbwatchd starts next\n"); });
+  }
+  const auto reserved = backup::exclude_daemon(restoration.places);
+  if (!reserved) return tl::unexpected(reserved.error());
+  return replace_files(restoration.places, restoration.files, disk, removed).map([] {
+    return std::string("reset; start it: systemctl start orbwatch\n");
+  });
+}
+
 CliResult<std::string> reset(const ResetOptions& o) {
   if (!o.factory) return usage_error("say --factory");
   const fs::path config = backup::full_path(files::site_file(o.config));
   const auto delivered = delivered_files(o.delivered);
   if (!delivered) return tl::unexpected(delivered.error());
-  const auto undone = o.check ? Result<std::string>("") : backup::undo_interrupted(config);
+  const auto undone =
+      o.check || o.at_start ? Result<std::string>("") : backup::undo_interrupted(config);
   if (!undone) return tl::unexpected(undone.error());
   const auto restoration = backup::restoration_of(*delivered, config, {});
   if (!restoration) return fail(o.delivered.string() + ": " + restoration.error().message);
@@ -87,12 +111,9 @@ CliResult<std::string> reset(const ResetOptions& o) {
     text += "removed  " + restoration->places.at(name).string() + "\n";
   }
   if (o.check) return text;
-  const auto reserved = backup::exclude_daemon(restoration->places);
-  if (!reserved) return tl::unexpected(reserved.error());
-  backup::DiskChanges disk;
-  const auto done = replace_files(restoration->places, restoration->files, disk, *removed);
+  const auto done = reset_files(o, *restoration, *removed);
   if (!done) return tl::unexpected(done.error());
-  return text + "reset; start it: systemctl start orbwatch\n";
+  return text + *done;
 }
 
 }  // namespace
@@ -108,7 +129,9 @@ CliResult<std::string> reset_command(const Arguments& arguments) {
                     text_option(o.config)},
                    {"from", 0, "FOLDER", "another delivered configuration, with a site.toml",
                     text_option(o.delivered)},
-                   {"check", 0, "", "only show what would change", flag_option(o.check)}}},
+                   {"check", 0, "", "only show what would change", flag_option(o.check)},
+                   {"at-start", 0, "", "reset when orbwatchd starts next; it may run",
+                    flag_option(o.at_start)}}},
       [&](const auto&) { return reset(o); });
 }
 

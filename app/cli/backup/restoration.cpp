@@ -63,15 +63,19 @@ void note_address(const std::string& table, const std::string& address,
   notes.push_back(table + " address = " + address + ": must be an address of this device");
 }
 
-std::vector<std::string> device_notes(const files::Configuration& site, const Manifest& manifest) {
-  std::vector<std::string> notes;
+std::vector<RestoredCamera> cameras_of(const files::Configuration& site) {
+  std::vector<RestoredCamera> cameras;
   for (const auto& camera : site.cameras) {
     const std::string_view key = files::facts_of(camera.back_end).address_key;
     if (key.empty()) continue;
-    notes.push_back("camera " + camera.name + ": " + name_in_file(camera.back_end) + "." +
-                    std::string(key) + " = " + files::address_of(camera.back_end) + "; --camera " +
-                    camera.name + "=ADDRESS sets another");
+    cameras.push_back({camera.name, name_in_file(camera.back_end) + "." + std::string(key),
+                       files::address_of(camera.back_end)});
   }
+  return cameras;
+}
+
+std::vector<std::string> device_notes(const files::Configuration& site, const Manifest& manifest) {
+  std::vector<std::string> notes;
   const auto& web = std::get<WebSettings>(site.sinks);
   note_address("[web]", web.address, notes);
   note_address("[modbus]", std::get<ModbusSettings>(site.sinks).address, notes);
@@ -85,6 +89,14 @@ std::vector<std::string> device_notes(const files::Configuration& site, const Ma
 }
 
 }  // namespace
+
+Result<CameraAddress> camera_address(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
+    return fail("\"" + text + "\" must be NAME=ADDRESS");
+  }
+  return CameraAddress{text.substr(0, equals), text.substr(equals + 1)};
+}
 
 Result<SitePlaces> present_places(const fs::path& config) {
   const fs::path file = full_path(config);
@@ -119,22 +131,29 @@ Result<Restoration> restoration_of(const Backup& backup, const fs::path& config,
                 present->state.string() + "; set state_folder of " + file.string() +
                 " to the former first");
   }
-  return Restoration{std::move(*present), std::move(*files),
+  return Restoration{std::move(*present), std::move(*files), cameras_of(site->site),
                      device_notes(site->site, backup.manifest)};
 }
 
-std::string changes_text(const Restoration& restoration) {
-  std::string text;
+std::vector<FileChange> changes_of(const Restoration& restoration) {
+  std::vector<FileChange> changes;
   for (const ArchivedFile& file : restoration.files) {
     const fs::path path = restoration.places.at(file.name);
     std::error_code none;
     const bool is_there = fs::exists(fs::symlink_status(path, none));
     const auto old = hal::read_regular_file(path, kMostBytes);
     const bool is_same = old && *old == file.bytes;
-    text += std::string(!is_there ? "new      "
-                        : is_same ? "same     "
-                                  : "changed  ") +
-            path.string() + "\n";
+    changes.push_back({file.name, !is_there ? "new" : is_same ? "same" : "changed"});
+  }
+  return changes;
+}
+
+std::string changes_text(const Restoration& restoration) {
+  constexpr std::size_t kColumn = 9;
+  std::string text;
+  for (const FileChange& change : changes_of(restoration)) {
+    text += change.word + std::string(kColumn - change.word.size(), ' ') +
+            restoration.places.at(change.name).string() + "\n";
   }
   return text;
 }

@@ -18,11 +18,22 @@ struct CameraAddress {
   std::string address;
 };
 
+/// NAME=ADDRESS. Error: another form. Reentrant.
+Result<CameraAddress> camera_address(const std::string& text);
+
+/// Camera of a restored site that is one device.
+struct RestoredCamera {
+  std::string name;
+  std::string key;  ///< key of the configuration, such as genicam.camera
+  std::string address;
+};
+
 /// A backup that was checked for this appliance.
 struct Restoration {
   SitePlaces places;
-  Archive files;                          ///< the configuration file first
-  std::vector<std::string> device_notes;  ///< lines about settings of one device
+  Archive files;  ///< the configuration file first
+  std::vector<RestoredCamera> cameras;
+  std::vector<std::string> device_notes;  ///< lines about other settings of one device
 };
 
 /// The places of the site `config` at present: without a readable configuration its state is in the
@@ -34,6 +45,13 @@ Result<SitePlaces> present_places(const std::filesystem::path& config);
 /// address; another state folder than at present.
 Result<Restoration> restoration_of(const Backup& backup, const std::filesystem::path& config,
                                    const std::vector<CameraAddress>& cameras);
+
+/// A file of a restoration compared with the present one.
+struct FileChange {
+  std::string name;
+  std::string word;  ///< new, changed or same
+};
+std::vector<FileChange> changes_of(const Restoration& restoration);
 
 /// Lines "new", "changed" or "same" with the file.
 std::string changes_text(const Restoration& restoration);

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/cli/backup/backup_file.h"
+#include "app/cli/backup/boot_restore.h"
 #include "app/cli/backup/passphrase.h"
+#include "app/cli/backup/pending_restore.h"
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
+#include "app/cli/backup/restore_report.h"
 #include "app/cli/backup/service_stop.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/files/runtime/site_file.h"
-#include "app/model/plain_text.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::cli {
@@ -22,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRestoreUsage =
     "Usage: orbwatch restore FILE [options]\n"
-    "       orbwatch restore --undo\n\n"
+    "       orbwatch restore --undo | --pending\n\n"
     "Restores what `orbwatch backup` wrote, also on another device or of an older version. Checks\n"
     "everything first; then all files are replaced, or, after a failure or a power cut, none.\n"
     "Files that the backup does not have stay. The service must be stopped meanwhile:\n"
@@ -35,13 +38,11 @@ struct RestoreOptions {
   std::vector<backup::CameraAddress> cameras;
   bool without_secrets = false;
   bool check = false;
+  bool json = false;
+  bool at_start = false;
   bool undo = false;
+  bool pending = false;
 };
-
-std::string shown(const std::string& text) {
-  constexpr std::size_t kLongest = 4096;
-  return plain_text(text, kLongest);
-}
 
 /// Reads the backup with its secrets, unless they are not wanted.
 Result<backup::Backup> read_backup(const RestoreOptions& o, const fs::path& file) {
@@ -54,61 +55,65 @@ Result<backup::Backup> read_backup(const RestoreOptions& o, const fs::path& file
     const auto opened = backup::open_secrets(*read, *passphrase);
     if (!opened) read = tl::unexpected(opened.error());
   }
-  if (!read) return fail(file.string() + ": " + shown(read.error().message));
+  if (!read) return fail(file.string() + ": " + backup::shown(read.error().message));
   return std::move(read->backup);
 }
 
-std::string report(const backup::Backup& backup, const backup::Restoration& restoration) {
-  const backup::Manifest& manifest = backup.manifest;
-  std::string text = "backup of " + shown(manifest.host) + ", " + shown(manifest.made) +
-                     ", orbwatch " + shown(manifest.version) + "\n" + changes_text(restoration);
-  if (backup.secrets.empty()) {
-    for (const std::string& name : manifest.secret_files) {
-      text += "not restored, a secret: " + shown(name) + "\n";
-    }
+/// Replaces the files, now or at the start of orbwatchd. Returns a line about it.
+Result<std::string> replaced(const RestoreOptions& o, const backup::Restoration& restoration) {
+  backup::DiskChanges disk;
+  if (o.at_start) {
+    return keep_pending(restoration.places, restoration.files, {}, disk).map([] {
+      return std::string("restored when orbwatchd starts next\n");
+    });
   }
-  for (const std::string& line : manifest.left_out) {
-    text += "not in the backup: " + shown(line) + "\n";
-  }
-  for (const std::string& note : restoration.device_notes) {
-    text += "depends on the device: " + shown(note) + "\n";
-  }
-  return text;
+  const auto reserved = backup::exclude_daemon(restoration.places);
+  if (!reserved) return tl::unexpected(reserved.error());
+  return replace_files(restoration.places, restoration.files, disk).map([] {
+    return std::string("restored; start it: systemctl start orbwatch\n");
+  });
 }
 
 CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
                                const fs::path& config) {
   const auto backup = read_backup(o, file);
   if (!backup) return tl::unexpected(backup.error());
-  const auto undone = o.check ? Result<std::string>("") : backup::undo_interrupted(config);
+  const auto undone =
+      o.check || o.at_start ? Result<std::string>("") : backup::undo_interrupted(config);
   if (!undone) return tl::unexpected(undone.error());
   const auto restoration = backup::restoration_of(*backup, config, o.cameras);
-  if (!restoration) return fail(file.string() + ": " + shown(restoration.error().message));
-  const std::string text = *undone + report(*backup, *restoration);
+  if (!restoration) return fail(file.string() + ": " + backup::shown(restoration.error().message));
+  const std::string text =
+      o.json ? restore_json(*backup, *restoration) : *undone + restore_text(*backup, *restoration);
   if (o.check) return text;
-  const auto reserved = backup::exclude_daemon(restoration->places);
-  if (!reserved) return tl::unexpected(reserved.error());
-  backup::DiskChanges disk;
-  const auto replaced = backup::replace_files(restoration->places, restoration->files, disk);
-  if (!replaced) return tl::unexpected(replaced.error());
-  return text + "restored; start it: systemctl start orbwatch\n";
+  const auto done = replaced(o, *restoration);
+  if (!done) return tl::unexpected(done.error());
+  return o.json ? text : text + *done;
+}
+
+/// All that is done before orbwatchd starts.
+Result<std::string> pending(const fs::path& config) {
+  const char* const folder = std::getenv(backup::kBootFolder);
+  return backup::complete_pending(config).and_then([&](const std::string& text) {
+    return backup::restore_from_boot(config, folder != nullptr ? folder : "")
+        .map([&](const std::string& more) { return text + more; });
+  });
 }
 
 CliResult<std::string> run(const RestoreOptions& o, const std::vector<std::string>& words) {
-  if (words.size() + (o.undo ? 1 : 0) != 1) return usage_error("say FILE or --undo");
+  const std::size_t asked = words.size() + (o.undo ? 1 : 0) + (o.pending ? 1 : 0);
+  if (asked != 1) return usage_error("say FILE, --undo or --pending");
   const fs::path config = fs::absolute(files::site_file(o.config)).lexically_normal();
-  if (!o.undo) return restore(o, words.front(), config);
-  const auto undone = backup::undo_interrupted(config);
-  if (!undone) return tl::unexpected(undone.error());
-  return *undone;
+  if (!o.undo && !o.pending) return restore(o, words.front(), config);
+  const auto done = o.undo ? backup::undo_interrupted(config) : pending(config);
+  if (!done) return tl::unexpected(done.error());
+  return *done;
 }
 
 Result<> add_camera(const std::string& value, std::vector<backup::CameraAddress>& cameras) {
-  const std::size_t equals = value.find('=');
-  if (equals == 0 || equals == std::string::npos || equals + 1 == value.size()) {
-    return fail("--camera is \"" + value + "\"; it must be NAME=ADDRESS");
-  }
-  cameras.push_back({value.substr(0, equals), value.substr(equals + 1)});
+  auto camera = backup::camera_address(value);
+  if (!camera) return fail("--camera: " + camera.error().message);
+  cameras.push_back(std::move(*camera));
   return {};
 }
 
@@ -130,8 +135,15 @@ CliResult<std::string> restore_command(const Arguments& arguments) {
                    {"without-secrets", 0, "", "keep this device's users, certificates and keys",
                     flag_option(o.without_secrets)},
                    {"check", 0, "", "only show what would change", flag_option(o.check)},
+                   {"json", 0, "", "show it as JSON", flag_option(o.json)},
+                   {"at-start", 0, "", "replace the files when orbwatchd starts next; it may run",
+                    flag_option(o.at_start)},
                    {"undo", 0, "", "put the old files back after an interruption",
-                    flag_option(o.undo)}},
+                    flag_option(o.undo)},
+                   {"pending", 0, "",
+                    "as --undo; then replace the files that --at-start left, and\nrestore a backup "
+                    "in the folder ORBWATCH_RESTORE_FOLDER; for the\nservice",
+                    flag_option(o.pending)}},
        .takes_words = true},
       [&](const auto& words) { return run(o, words); });
 }

@@ -30,6 +30,13 @@ StateUse use_of(std::string_view file) {
   return std::ranges::count(kHistory, file) > 0 ? StateUse::History : StateUse::None;
 }
 
+std::vector<std::string> history_names() {
+  std::vector<std::string> names;
+  names.reserve(kHistory.size());
+  for (const std::string_view file : kHistory) names.push_back(std::string(kState).append(file));
+  return names;
+}
+
 const std::filesystem::path& SitePlaces::folder_of(const std::string& name) const {
   return name.starts_with(kState) ? state : configuration;
 }

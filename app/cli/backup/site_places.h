@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "proc/image/result.h"
 
@@ -22,6 +23,9 @@ enum class StateUse {
 
 /// `file` is the name in the state folder.
 StateUse use_of(std::string_view file);
+
+/// Names, as in a backup, of the files of the state that a running daemon may write at its end.
+std::vector<std::string> history_names();
 
 /// Folders of a site, and the names of their files here and in a backup.
 struct SitePlaces {

@@ -78,6 +78,7 @@ orbwatch \- tools around mirror balls and the orbwatchd service
 std::string exit_statuses() {
   std::string text = ".SH EXIT STATUS\n";
   for (const ExitStatusInfo& info : kExitStatuses) {
+    if (info.of_orbwatch.empty()) continue;
     text += ".TP\n" + std::to_string(static_cast<int>(info.status)) + "\n" +
             escaped(info.of_orbwatch) + "\n";
   }
@@ -97,6 +98,10 @@ configuration it runs.
 .TP
 .B RUNTIME_DIRECTORY
 The folder in which a service records the outputs that it drives.
+.TP
+.B ORBWATCH_RESTORE_FOLDER
+The folder whose backup \fBrestore \-\-pending\fR restores, once: restore.tar.zst, with its
+passphrase, and lines NAME=ADDRESS in cameras, beside it.
 .SH FILES
 .TP
 .I /etc/orbwatch/site.toml

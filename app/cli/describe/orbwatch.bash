@@ -2,7 +2,7 @@
 _orbwatch() {
   local words="" line="${COMP_WORDS[*]:1:COMP_CWORD-1} "
   case $line in
-    " ") words="project advise setup detect register place drift replay calibration subscribe state command password dds-keys list doctor support backup restore reset configure events lines bench describe --help --version" ;;
+    " ") words="project advise setup detect register place drift replay calibration subscribe state command password dds-keys list doctor support backup restore reset update configure events lines bench describe --help --version" ;;
     "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
     "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
     "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --page --force --json --help" ;;
@@ -19,10 +19,11 @@ _orbwatch() {
     "dds-keys "*) words="--subscriber --read-only --domain --prefix --days --replace --help" ;;
     "list "*) words="--json --appliances --seconds --domain --security --help" ;;
     "doctor "*) words="--config --json --help" ;;
-    "support "*) words="--output --config --pictures --help" ;;
+    "support "*) words="--output --config --figures --pictures --help" ;;
     "backup "*) words="--output --config --passphrase-file --without-secrets --help" ;;
-    "restore "*) words="--config --camera --passphrase-file --without-secrets --check --undo --help" ;;
-    "reset "*) words="--factory --config --from --check --help" ;;
+    "restore "*) words="--config --camera --passphrase-file --without-secrets --check --json --at-start --undo --pending --help" ;;
+    "reset "*) words="--factory --config --from --check --at-start --help" ;;
+    "update "*) words="--reboot --skip-failed --help" ;;
     "configure "*) words="--config --seconds --dry-run --confirm --cancel --help" ;;
     "events "*) words="--config --folder --json --output --camera --from --to --draw --force --help" ;;
     "lines "*) words="--safe --config --help" ;;

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "hal/recording/camera_recording.h"
+
 namespace orbwatch::app::cli {
 namespace {
 
@@ -50,9 +52,11 @@ class Recorder {
     changed_.notify_all();
   }
 
-  /// Recordings start when their camera does; their pictures belong together by number.
+  /// Folders and videos start when their camera does; their pictures belong together by number.
   std::chrono::nanoseconds time_of(const hal::FrameMetadata& metadata) const {
-    if (camera_.info().back_end != "replay") return metadata.exposure_start.time_since_epoch();
+    const bool has_moments = camera_.info().back_end != "replay" ||
+                             hal::recording::has_recording_name(camera_.info().model);
+    if (has_moments) return metadata.exposure_start.time_since_epoch();
     return static_cast<std::int64_t>(metadata.sequence) * hal::period_of(record_.format.frame_rate);
   }
 

@@ -26,9 +26,10 @@ constexpr const char* kSetupUsage =
 
 constexpr const char* kSetupNotes =
     "\n"
-    "SOURCE is a device, a camera's id of `orbwatch list`, a folder of pictures, a picture or a\n"
-    "video. NAME= may be left out where there is one camera. A process that runs while several\n"
-    "cameras are recorded registers them by its light: sparks and melt pool.\n"
+    "SOURCE is a device, a camera's id of `orbwatch list`, a folder of pictures, a picture, a\n"
+    "video, or a recording (.mcap) with pictures of NAME. NAME= may be left out where there is\n"
+    "one camera. A process that runs while several cameras are recorded registers them by its\n"
+    "light: sparks and melt pool.\n"
     "\n"
     "DIR gets site.toml, rig.toml, recipe.toml, and for each camera NAME.png, in which the "
     "outline\n"

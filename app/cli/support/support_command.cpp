@@ -25,6 +25,7 @@ constexpr const char* kSupportUsage =
 struct SupportOptions {
   std::filesystem::path output;
   std::filesystem::path config;
+  std::filesystem::path figures;
   bool pictures = false;
 };
 
@@ -32,7 +33,7 @@ CliResult<std::string> write_support_file(const SupportOptions& o) {
   if (o.output.empty()) return usage_error("-o FILE is missing");
   Progress progress;
   progress.begin("collecting");
-  const auto file = support::support_file(support::this_computer(o.config), o.pictures);
+  const auto file = support::support_file(support::this_computer(o.config, o.figures), o.pictures);
   progress.begin("writing");
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   const auto written = tar_of(file.files, now)
@@ -60,6 +61,9 @@ CliResult<std::string> support_command(const Arguments& arguments) {
                     text_option(o.output)},
                    {"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
                     text_option(o.config)},
+                   {"figures", 0, "FOLDER",
+                    "texts of the running orbwatchd, instead of asking it;\nfor the service",
+                    text_option(o.figures)},
                    {"pictures", 0, "",
                     "also the next picture of each view, and the newest\nsnapshots",
                     flag_option(o.pictures)}},

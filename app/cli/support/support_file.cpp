@@ -17,6 +17,7 @@
 #include "app/cli/support/site_parts.h"
 #include "app/files/resolve.h"
 #include "app/health/system_file.h"
+#include "hal/regular_file.h"
 
 namespace orbwatch::app::cli::support {
 namespace {
@@ -92,15 +93,36 @@ void add_system(const SupportSources& sources, Collection& to) {
   to.add("journal/kernel.txt", journal(sources, {"--dmesg"}));
 }
 
-/// Figures of the running daemon over HTTP, which needs a login once there are users, and over DDS.
-void add_figures(const SupportSources& sources, const files::Configuration& site, Collection& to) {
-  constexpr std::array<std::pair<const char*, const char*>, 3> kTargets{
+/// Texts that the running daemon wrote for this support file.
+void add_written_figures(const fs::path& folder, Collection& to) {
+  constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+  std::vector<fs::path> files = entries(folder);
+  std::ranges::sort(files);
+  for (const fs::path& file : files) {
+    to.add("running/" + file.filename().string(), hal::read_regular_file(file, kMostBytes));
+  }
+  if (files.empty()) to.leave_out("running/", folder.string() + " has no files");
+}
+
+/// Figures of the running daemon over HTTP, which needs a login once there are users.
+void add_asked_figures(const SupportSources& sources, const files::Configuration& site,
+                       Collection& to) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> kTargets{
       {{"running/status.json", "/api/v1/status"},
        {"running/metrics.txt", "/metrics"},
+       {"running/figures.csv", "/api/v1/history/figures.csv"},
        {"running/alarms.json", "/api/v1/history/alarms"}}};
   const auto& web = std::get<WebSettings>(site.sinks);
   for (const auto& [name, target] : kTargets) {
     to.add(name, web.enabled ? sources.page(web, target) : fail("[web] is not enabled"));
+  }
+}
+
+void add_figures(const SupportSources& sources, const files::Configuration& site, Collection& to) {
+  if (sources.figures.empty()) {
+    add_asked_figures(sources, site, to);
+  } else {
+    add_written_figures(sources.figures, to);
   }
   const auto& dds = std::get<DdsSettings>(site.sinks);
   to.add("running/state.json", dds.enabled ? sources.state(dds) : fail("[dds] is not enabled"));

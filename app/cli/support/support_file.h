@@ -16,8 +16,9 @@ namespace orbwatch::app::cli::support {
 /// Sources of a support file; tests use trees and servers of their own.
 struct SupportSources {
   doctor::Sources board;
-  std::filesystem::path config;  ///< configuration file of orbwatchd
-  std::string versions;          ///< program and libraries, a line each
+  std::filesystem::path config;   ///< configuration file of orbwatchd
+  std::string versions;           ///< program and libraries, a line each
+  std::filesystem::path figures;  ///< folder with texts of the running daemon; empty: it is asked
   std::string environment;  ///< entries NAME=VALUE of this process, each with a zero at its end
   /// Body of the answer of the running daemon's HTTP interface. Error: it gives none.
   std::function<Result<std::string>(const WebSettings& web, const std::string& target)> page;
@@ -25,8 +26,9 @@ struct SupportSources {
   std::function<Result<std::string>(const DdsSettings& dds)> state;
 };
 
-/// Sources of this computer for the configuration file `config`.
-SupportSources this_computer(const std::filesystem::path& config);
+/// Sources of this computer for the configuration file `config`. `figures` as in SupportSources.
+SupportSources this_computer(const std::filesystem::path& config,
+                             const std::filesystem::path& figures = {});
 
 /// Part of a support file that is missing.
 struct LeftOut {

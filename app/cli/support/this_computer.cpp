@@ -52,10 +52,12 @@ Result<std::string> state(const DdsSettings& dds) {
 
 }  // namespace
 
-SupportSources this_computer(const std::filesystem::path& config) {
+SupportSources this_computer(const std::filesystem::path& config,
+                             const std::filesystem::path& figures) {
   return {.board = doctor::this_computer(),
           .config = config,
           .versions = version_text("orbwatch"),
+          .figures = figures,
           .environment = environment_text(),
           .page = page,
           .state = state};

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "app/cli/archive/tar.h"
 #include "app/cli/backup/placement.h"
 #include "app/files/resolve.h"
 #include "app/state/state_folder.h"
@@ -187,6 +188,111 @@ TEST_F(BackupProgram, AnInterruptedRestoreIsUndone) {
   EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "of the new device");
   ASSERT_EQ(run_on("new", {"restore", "--undo"}), 0) << said;
   EXPECT_EQ(said, "");
+}
+
+TEST_F(BackupProgram, ARunningDaemonLeavesTheFilesForItsNextStart) {
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  write_file(path("new-state/users.json"), "of the new device", 0600);
+  const auto present = states_below(path("new"));
+  auto options = with_passphrase();
+  options.insert(options.end(), {"--at-start", "--json"});
+  {
+    const auto running = app::reserve(path("new-state"));
+    ASSERT_TRUE(running);
+    ASSERT_EQ(restore(options), 0) << said;
+    EXPECT_THAT(said, AllOf(HasSubstr(R"({"file":"configuration/site.toml","change":"new"})"),
+                            HasSubstr(R"({"file":"state/users.json","change":"changed"})"),
+                            HasSubstr(R"("key":"genicam.camera","address":"SN-1")")));
+    EXPECT_EQ(states_below(path("new")), present);
+    EXPECT_EQ(run_on("new", {"restore", "--pending"}), 1) << "it runs";
+  }
+  struct stat about {};
+  ASSERT_EQ(::stat(path("new-state/restore-pending.tar").c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 0777U, 0600U);
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("are in place"));
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "hash-of-kim");
+  EXPECT_EQ(states_below(path("new")), states_below(path("old")));
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_EQ(said, "") << "once";
+}
+
+TEST_F(BackupProgram, AResetAtTheStartRemovesWhatTheDaemonWritesAtItsEnd) {
+  write_file(path("delivered/site.toml"), app::files::kValid, 0644);
+  write_file(path("delivered/rig.toml"), app::files::kRig, 0644);
+  ASSERT_EQ(run_on("old", {"reset", "--factory", "--at-start", "--from", path("delivered")}), 0)
+      << said;
+  write_file(path("old-state/logins.json"), "of kim", 0600);
+  ASSERT_EQ(run_on("old", {"restore", "--pending"}), 0) << said;
+  EXPECT_EQ(states_below(path("old")), states_below(path("delivered")));
+  const auto state = states_below(path("old-state"));
+  EXPECT_FALSE(state.contains("logins.json"));
+  EXPECT_FALSE(state.contains("users.json"));
+}
+
+TEST_F(BackupProgram, ABackupOnTheBootPartitionIsRestoredOnce) {
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  const std::filesystem::path boot = path("boot");
+  std::filesystem::create_directories(boot);
+  std::filesystem::copy(path("backup.tar.zst"), boot / "restore.tar.zst");
+  write_file(boot / "passphrase", "correct horse battery\r\n");
+  write_file(boot / "cameras", "a=SN-9\r\n");
+  ::setenv("ORBWATCH_RESTORE_FOLDER", boot.c_str(), 1);
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("restored from " + boot.string()));
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "hash-of-kim");
+  EXPECT_THAT(states_below(path("new"))["site.toml"].first, HasSubstr("camera = \"SN-9\""));
+  write_file(path("new-state/users.json"), "changed since", 0600);
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "changed since");
+
+  write_file(path("old/recipes/one.toml"), "another note");
+  ASSERT_EQ(back_up({"--without-secrets"}), 0) << said;
+  std::filesystem::copy(path("backup.tar.zst"), boot / "restore.tar.zst",
+                        std::filesystem::copy_options::overwrite_existing);
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_EQ(states_below(path("new"))["recipes/one.toml"].first, "another note");
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "changed since");
+  ::unsetenv("ORBWATCH_RESTORE_FOLDER");
+}
+
+TEST_F(BackupProgram, ABackupOnTheBootPartitionThatIsWrongChangesNothing) {
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  const std::filesystem::path boot = path("boot");
+  std::filesystem::create_directories(boot);
+  ::setenv("ORBWATCH_RESTORE_FOLDER", boot.c_str(), 1);
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << "without a backup: " << said;
+  const auto expect_refused = [&](const std::string& part) {
+    EXPECT_EQ(run_on("new", {"restore", "--pending"}), 1);
+    EXPECT_THAT(said, AllOf(HasSubstr("restore.tar.zst"), HasSubstr(part)));
+    EXPECT_TRUE(states_below(path("new")).empty());
+  };
+  write_file(boot / "restore.tar.zst", "garbage");
+  expect_refused("");
+  std::filesystem::copy(path("backup.tar.zst"), boot / "restore.tar.zst",
+                        std::filesystem::copy_options::overwrite_existing);
+  write_file(boot / "passphrase", "a wrong one of some length");
+  expect_refused("the passphrase is wrong");
+  write_file(boot / "passphrase", "correct horse battery");
+  write_file(boot / "cameras", "colour");
+  expect_refused("NAME=ADDRESS");
+  ::unsetenv("ORBWATCH_RESTORE_FOLDER");
+}
+
+TEST_F(BackupProgram, PendingFilesThatAreDamagedAreDropped) {
+  for (const char* bytes : {"", "garbage"}) {
+    write_file(path("new-state/restore-pending.tar"), bytes, 0600);
+    EXPECT_EQ(run_on("new", {"restore", "--pending"}), 1);
+    EXPECT_THAT(said, HasSubstr("restore-pending.tar"));
+    EXPECT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  }
+  const auto outside = app::cli::tar_of({{"removed", "state/commands\n"}}, {});
+  ASSERT_TRUE(outside);
+  write_file(path("new-state/restore-pending.tar"), *outside, 0600);
+  write_file(path("new-state/commands"), "of the device", 0600);
+  EXPECT_EQ(run_on("new", {"restore", "--pending"}), 1);
+  EXPECT_EQ(states_below(path("new-state"))["commands"].first, "of the device");
 }
 
 TEST_F(BackupProgram, AConfigurationThatIsNotValidIsRefused) {

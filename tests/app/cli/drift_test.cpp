@@ -7,6 +7,8 @@
 
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
+#include "tests/app/cli/recorded_pictures.h"
+#include "tests/support/picture_of_mat.h"
 
 /// Runs `orbwatch drift` like a user.
 namespace orbwatch::tests {
@@ -77,6 +79,20 @@ TEST_F(DriftCommand, NamesThePictureOfAJumpAndTheCorrectedOutline) {
   expect_documented(documented, said);
 }
 
+TEST_F(DriftCommand, WatchesARecordedEventLikeAFolder) {
+  const auto of_folder = drift({"A=" + sequence("bumped", 10, 9, -5)});
+  std::vector<cv::Mat> pictures;
+  std::vector<RecordedPictureOf> recorded;
+  for (std::uint64_t n = 0; n < 12; ++n) {
+    pictures.push_back(n < 10 ? ball(0, 0) : ball(9, -5));
+    recorded.push_back({"A", n, picture_of_mat(pictures.back())});
+  }
+  write_recorded_pictures(path("event.mcap"), recorded);
+  EXPECT_EQ(drift({"A=" + path("event.mcap")}), of_folder);
+  ASSERT_EQ(run({"drift", "--rig", path("rig.toml"), "A=" + path("event.mcap")}), 0) << said;
+  EXPECT_NE(said.find("picture 11, picture 10"), std::string::npos) << said;
+}
+
 TEST_F(DriftCommand, ComparesWithAReferenceAndOtherLimits) {
   const std::string reference = write("reference.png", ball(0, 0));
   const std::string moved = sequence("moved", 0, 0.5, 0);
@@ -108,8 +124,8 @@ TEST_F(DriftCommand, RefusesMistakesWithTheReason) {
     return arguments;
   };
   for (const Mistake& mistake : {
-           Mistake{"no camera", with({}), {"CAMERA=FOLDER", "--help"}},
-           Mistake{"no folder", with({"A"}), {"CAMERA=FOLDER"}},
+           Mistake{"no camera", with({}), {"CAMERA=PATH", "--help"}},
+           Mistake{"no folder", with({"A"}), {"CAMERA=PATH"}},
            Mistake{"no rig", {"A=x"}, {"--rig"}},
            Mistake{"an unknown camera", with({"B=x"}), {"no camera B", "A"}},
            Mistake{"no such folder", with({"A=/nowhere"}), {"/nowhere"}},
@@ -121,6 +137,7 @@ TEST_F(DriftCommand, RefusesMistakesWithTheReason) {
   }
   for (const Mistake& mistake : {
            Mistake{"no pictures", with({"A=" + path("empty")}), {"empty", "no pictures in it"}},
+           Mistake{"no recording", with({"A=" + write("a.mcap", "text")}), {"a.mcap", "MCAP"}},
            Mistake{"another size", with({"A=" + path("other")}), {"a.png", "60x50", "320x240"}},
            Mistake{"a black reference",
                    with({"A=" + path("still"), "--reference", "DIR/black.png"}),

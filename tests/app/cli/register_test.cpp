@@ -9,7 +9,9 @@
 #include "proc/align/rotation_fit.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
+#include "tests/app/cli/recorded_pictures.h"
 #include "tests/proc/align/register/camera_pair.h"
+#include "tests/support/picture_of_mat.h"
 
 /// Runs `orbwatch register` like a user.
 namespace orbwatch::tests {
@@ -116,6 +118,30 @@ TEST_F(Register, SaysHowOneCameraStandsToTheOther) {
   const auto rig = app::files::load_rig(path("new.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_LT(align::angle_between(rig->cameras[1].registration, found), 1e-6);
+}
+
+TEST_F(Register, TakesPicturesOfCommonFrameSetsFromARecording) {
+  write_room(false);
+  auto arguments = both();
+  arguments.emplace_back("--json");
+  ASSERT_EQ(run(arguments), 0) << said;
+  const std::string of_pictures = said;
+  const cv::Mat a = cv::imread(path("a.png"), cv::IMREAD_UNCHANGED),
+                b = cv::imread(path("b.png"), cv::IMREAD_UNCHANGED);
+  const cv::Mat black = cv::Mat::zeros(a.size(), a.type());
+  write_recorded_pictures(path("event.mcap"), {{"A", 1, picture_of_mat(black)},
+                                               {"A", 2, picture_of_mat(a)},
+                                               {"B", 2, picture_of_mat(b)},
+                                               {"B", 3, picture_of_mat(black)}});
+  const std::string event = path("event.mcap");
+  ASSERT_EQ(run({"register", "--rig", path("rig.toml"), "A=" + event, "B=" + event, "--json"}), 0)
+      << said;
+  EXPECT_EQ(said, of_pictures);
+  write_recorded_pictures(path("apart.mcap"),
+                          {{"A", 1, picture_of_mat(a)}, {"B", 2, picture_of_mat(b)}});
+  expect_refused("register", {"apart",
+                              {"--rig", "DIR/rig.toml", "A=DIR/apart.mcap", "B=DIR/apart.mcap"},
+                              {"A and B have no picture of the same frame set"}});
 }
 
 TEST_F(Register, ACameraWithAPoseIsTurnedAboutTheBall) {

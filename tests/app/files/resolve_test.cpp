@@ -216,6 +216,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ProcessInputThatIsAnOutput",
                 with_recipes({"output.toml"}, kValid + kLines),
                 {"/output.toml:1: process_input", "\"flash\"", "start, flash"}},
+        Refusal{"EventsOfAnInputThatIsNotThere",
+                kValid + kLines +
+                    "[recorder]\nfolder = \"r\"\n[recorder.events]\nring_mib = 64\n"
+                    "on_lines = [\"start\"]\n",
+                {"recorder.events.on_lines", "\"start\" with use process_input", "start, flash"}},
         Refusal{"TooManyViewsTogether",
                 with_recipes({"sixteen.toml"}),
                 {"view: 17 are given", "1 to 16"}},

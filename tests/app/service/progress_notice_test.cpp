@@ -101,5 +101,19 @@ TEST(ProgressNotice, WithoutAWatchdogOnlyChangesAreSent) {
   EXPECT_THAT(*fault, HasSubstr("STATUS=fault"));
 }
 
+TEST(ProgressNotice, SaysThatAnInterfaceHasAFault) {
+  const tests::TemporaryFolder folder;
+  const NotifySocket manager(folder / "notify", milliseconds(0));
+  ProgressNotice notice;
+  ASSERT_TRUE(notice.start());
+  Status status;
+  status.state = SystemState::Running;
+  notice.accept(status);
+  ASSERT_TRUE(manager.next(kPatience));
+  status.interface_faults = 1;
+  notice.accept(status);
+  EXPECT_THAT(manager.next(kPatience).value_or(""), HasSubstr("interface cannot be opened"));
+}
+
 }  // namespace
 }  // namespace orbwatch::app

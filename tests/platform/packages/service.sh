@@ -189,6 +189,8 @@ test_others() {
   check "and that for videos, with its libraries" inside sh -c \
     'orbwatch --version | grep -x "video installed" && ! ldd /usr/lib/*/orbwatch/modules/camera-video.so | grep "not found"'
   check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
+    -a -e /usr/share/doc/orbwatch-doc/html/installation.de.html \
+    -a -e /usr/share/doc/orbwatch-doc/html/installation.ja.html \
     -a -e /usr/share/orbwatch-msgs/modbus/registers.csv
 }
 

@@ -11,7 +11,7 @@
 
 #include "app/ports/recorder/events/event_summary.h"
 #include "tests/app/cli/command_line.h"
-#include "tests/app/cli/replay/recorded_demo.h"
+#include "tests/app/daemon/replay/recorded_demo.h"
 #include "tests/support/reference_data.h"
 
 /// `orbwatch events export` of what the product's own pipeline recorded of the demo.

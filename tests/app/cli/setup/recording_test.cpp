@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "hal/replay/replay_camera.h"
+#include "tests/app/cli/recorded_pictures.h"
+#include "tests/support/picture_of_mat.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::cli {
@@ -54,6 +56,30 @@ TEST_F(Recording, KeepsWhatEveryCameraDelivers) {
   EXPECT_EQ(records[1]->pictures[0].picture.samples<std::uint16_t>().data[0], 7000);
   ASSERT_FALSE(records[2]);
   EXPECT_NE(records[2].error().message.find("missing"), std::string::npos);
+}
+
+TEST_F(Recording, PicturesOfARecordingBelongTogetherByTheirMoment) {
+  const cv::Mat grey(48, 64, CV_8U, cv::Scalar(70));
+  std::vector<tests::RecordedPictureOf> pictures;
+  for (const std::uint64_t set : {100U, 101U, 102U}) {
+    pictures.push_back({"left", set, tests::picture_of_mat(grey)});
+    if (set != 101) pictures.push_back({"right", set, tests::picture_of_mat(grey)});
+  }
+  tests::write_recorded_pictures(folder_ / "event.mcap", pictures);
+  std::vector<std::unique_ptr<hal::Camera>> cameras;
+  for (const char* name : {"left", "right"}) {
+    cameras.push_back(std::make_unique<hal::ReplayCamera>(
+        hal::ReplaySettings{.name = name, .source = folder_ / "event.mcap", .loop = false}));
+  }
+  const auto records = record(cameras, 24, std::chrono::seconds(30));
+  ASSERT_TRUE(records[0]) << records[0].error().message;
+  ASSERT_TRUE(records[1]) << records[1].error().message;
+  ASSERT_EQ(records[0]->pictures.size(), 3U);
+  ASSERT_EQ(records[1]->pictures.size(), 2U);
+  const auto span = [](const CameraRecord& record) {
+    return record.pictures.back().time - record.pictures.front().time;
+  };
+  EXPECT_EQ(span(*records[0]), span(*records[1]));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ import { element } from "../elements/elements.js";
 import { About } from "./about.js";
 import { Configuration } from "./configuration.js";
 import { Control } from "./control.js";
+import { Device } from "./device.js";
 import { Interfaces } from "./interfaces.js";
 import { Log } from "./log.js";
 import { overview } from "./overview.js";
@@ -26,6 +27,7 @@ export class System {
       this.configuration,
       session.has_users && may("administrator") && new People(session),
       session.has_users && new OwnPassword(session),
+      may("administrator") && new Device(isShown),
       new About(),
     ].filter(Boolean);
     root.append(element("div", { id: "overview" }, ...this.parts.map((part) => part.root)));
