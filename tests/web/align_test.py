@@ -16,17 +16,10 @@ from selenium.webdriver.support.select import Select
 
 from align_case import AlignCase
 from appliance import eventually
-from misaligned_machine import degrees_between, rotation_of, seen_at
+from misaligned_machine import degrees_between, direction_of, rotation_of, seen_at
 
 CLICK_PX = 5  # px; a shorter drag may count as a click
 VIEW_SIDE = 480  # px
-
-
-def direction_of(yaw, pitch):
-    """Unit vector, from degrees."""
-    yaw, pitch = numpy.radians([yaw, pitch])
-    return numpy.array([numpy.sin(yaw) * numpy.cos(pitch), numpy.cos(yaw) * numpy.cos(pitch),
-                        numpy.sin(pitch)])
 
 
 class Outline(AlignCase):

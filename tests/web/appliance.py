@@ -62,12 +62,16 @@ class Appliance:
         """Environment of the daemon, in addition to the test's own."""
         return {}
 
+    def around(self):
+        """Command that runs the daemon, as the words before it."""
+        return []
+
     def start(self, is_up=None):
         """Waits until `is_up`, by default runs(), which needs no log-in as long as there are no
         users."""
         log = open(self.folder / "log", "ab")
         self.daemon = subprocess.Popen(
-            [ROOT / "build/release/app/orbwatchd", "--config", self.folder / "demo.toml"],
+            [*self.around(), ROOT / "build/release/app/orbwatchd", "--config", self.folder / "demo.toml"],
             stdout=log, stderr=log, env={**os.environ, "CYCLONEDDS_URI": "", **self.environment()})
         log.close()
         eventually("the daemon runs", is_up or self.runs)

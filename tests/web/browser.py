@@ -4,6 +4,7 @@
 import base64
 import os
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
@@ -22,9 +23,11 @@ ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--dis
 
 
 def module_address(name):
-    """Address of a module of the page that imports no other; for pages with ignore_policy(). The appliance serves
-    modules only in its bundle."""
-    source = base64.b64encode((PAGE / name).read_bytes()).decode()
+    """Address of a module of the page with those that it imports; for pages with ignore_policy(). The appliance
+    serves modules only in its bundle."""
+    bundle = subprocess.run(["esbuild", PAGE / name, "--bundle", "--format=esm", "--charset=utf8"],
+                            capture_output=True, check=True)
+    source = base64.b64encode(bundle.stdout).decode()
     return f"data:text/javascript;base64,{source}"
 
 

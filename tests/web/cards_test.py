@@ -15,7 +15,8 @@ from selenium.webdriver.support.select import Select
 from appliance import PATIENCE_S, eventually
 from page_case import PageCase
 
-CARDS = ["state", "cameras", "views", "health", "machine", "stages", "interfaces", "log", "control", "configuration", "about"]
+CARDS = ["state", "cameras", "views", "health", "machine", "stages", "interfaces", "log", "control",
+         "configuration", "device", "about"]
 LEAST_TARGET = 24  # px, WCAG 2.5.8
 
 

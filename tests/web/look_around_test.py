@@ -134,7 +134,9 @@ class WebGl(LookingAround):
                 where = self.beyond_blind_cone() > NEAR_BLIND_CONE_DEG
                 self.assertGreater(numpy.mean(where), 0.5)
                 self.point("turned", *gaze)
-                self.expect_alike("turned", where, 0.99)
+                # A wide gaze needs a smaller picture, whose quality is lower.
+                least, tolerance = (0.9, 16) if zoom.startswith("-") else (0.99, 2)
+                self.expect_alike("turned", where, least, tolerance)
         self.browser.keep_picture("look")
         # Reading a canvas slows its processor down, which only this test does.
         self.assertEqual([entry for entry in self.browser.complaints()

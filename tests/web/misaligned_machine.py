@@ -63,6 +63,13 @@ def seen_at(camera, ball, point):
     return lens["fx"] * x / z + lens["cx"], lens["fy"] * y / z + lens["cy"]
 
 
+def direction_of(yaw, pitch):
+    """Unit vector, from degrees."""
+    yaw, pitch = numpy.radians([yaw, pitch])
+    return numpy.array([numpy.sin(yaw) * numpy.cos(pitch), numpy.cos(yaw) * numpy.cos(pitch),
+                        numpy.sin(pitch)])
+
+
 def registration_of(camera):
     """Rotation from the camera's own axes, X = -right, Y = -forward, Z = -down, to the
     machine's."""

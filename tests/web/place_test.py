@@ -62,13 +62,12 @@ class Place(AlignCase):
                 self.assertAlmostEqual(clicked, 300, delta=3)
         self.expect_no_complaint()
 
-    def test_corners_of_the_scene_beside_a_clicked_point_are_offered(self):
+    def test_corners_of_the_scene_beside_a_clicked_point_are_offered_and_added(self):
         self.open("colour")
         self.open_step("place")
         self.assertNotIn("Corner at", self.browser.text("#place"))
         self.pointer_at(*self.pixels()[0]).click().perform()
         self.press("Corner at -600.0, -500.0, 0.0")
-        self.press("Add the point")
         eventually("it is marked", lambda: [tuple(one["point"]) for one in self.camera()["points"]] ==
                    self.POINTS[:1])
         self.expect_no_complaint()

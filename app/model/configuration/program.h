@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "app/model/configuration/configuration_files.h"
+#include "app/model/configuration/device_files.h"
+#include "app/model/configuration/device_update.h"
 
 namespace orbwatch::app {
 
@@ -19,6 +21,8 @@ struct Program {
   /// Versions by name: the program's own first, then those of libraries.
   std::vector<std::pair<std::string, std::string>> versions{};
   std::string commanders{};  ///< interfaces that accept commands, in words
+  std::shared_ptr<DeviceFiles> device = nullptr;
+  std::shared_ptr<DeviceUpdate> update = nullptr;  ///< of a device that runs an image
 };
 
 /// Version of the program itself; empty: unknown.

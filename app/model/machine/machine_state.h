@@ -30,7 +30,7 @@ inline constexpr double kMostClock = 4294967296;
 Result<> check(const MachineState& state);
 
 /// Interfaces by which states arrive; one is chosen.
-enum class MachineSource : std::uint8_t { None, Modbus, Dds, Http, Simulation };
+enum class MachineSource : std::uint8_t { None, Modbus, Dds, Http, Simulation, Recording };
 
 /// The name in the site file.
 constexpr std::string_view name_of(MachineSource source) {
@@ -45,6 +45,8 @@ constexpr std::string_view name_of(MachineSource source) {
       return "http";
     case MachineSource::Simulation:
       return "simulation";
+    case MachineSource::Recording:
+      return "recording";
   }
   return {};
 }

@@ -43,6 +43,18 @@ Severity severity_of(SystemState state) {
   return Severity::Unknown;
 }
 
+constexpr unsigned kUnderVoltage = static_cast<unsigned>(Throttling::UnderVoltage);
+
+/// Bits of Throttling that apply now; 0 also where the board has no source of them.
+unsigned causes_now(const Health& health) {
+  constexpr unsigned kNow = (1U << kSincePowerOn) - 1, kAll = 255;
+  if (!signals::is_valid(health.throttling)) return 0;
+  return static_cast<unsigned>(std::clamp(health.throttling, 0.0, double{kAll})) & kNow;
+}
+
+/// Throttled for any other reason than the state of the supply alone.
+bool is_slowed_down(const Health& health) { return (causes_now(health) & ~kUnderVoltage) != 0; }
+
 }  // namespace
 
 Condition condition_of(const SystemStatus& system) {
@@ -109,13 +121,13 @@ Condition condition_of(const Health& health) {
       kHealthFigures, [&](const auto& info) { return signals::is_valid(health.*info.get); });
   if (!known) return {Severity::Unknown, "not known yet"};
   std::string text;
-  if (is_throttled(health)) text = "too hot or under-voltage: the processors are throttled";
-  if (health.clock_synchronised == 0) {
-    text += std::string(text.empty() ? "" : "; ") + "the clock follows no time server";
-  }
-  if (health.commands_recorded == 0) {
-    text += std::string(text.empty() ? "" : "; ") + "commands are not recorded: see state_folder";
-  }
+  const auto add = [&text](bool is_so, const char* complaint) {
+    if (is_so) text += std::string(text.empty() ? "" : "; ") + complaint;
+  };
+  add(has_under_voltage(health), "under-voltage: the supply or its cable is too weak");
+  add(is_slowed_down(health), "the processors are throttled: too hot, or the supply is too weak");
+  add(health.clock_synchronised == 0, "the clock follows no time server");
+  add(health.commands_recorded == 0, "commands are not recorded: see state_folder");
   if (text.empty()) return {Severity::None, "no complaint"};
   return {Severity::Warning, text};
 }
@@ -142,10 +154,8 @@ Severity worst_severity(const Status& status, std::optional<std::size_t> region)
   return worst;
 }
 
-bool is_throttled(const Health& health) {
-  constexpr unsigned kNow = (1U << kSincePowerOn) - 1, kAll = 255;
-  return signals::is_valid(health.throttling) &&
-         (static_cast<unsigned>(std::clamp(health.throttling, 0.0, double{kAll})) & kNow) != 0;
-}
+bool is_throttled(const Health& health) { return causes_now(health) != 0; }
+
+bool has_under_voltage(const Health& health) { return (causes_now(health) & kUnderVoltage) != 0; }
 
 }  // namespace orbwatch::app

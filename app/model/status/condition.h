@@ -58,4 +58,7 @@ Severity worst_severity(const Status& status, std::optional<std::size_t> region 
 /// The board is throttled now: it has under-voltage or is too hot.
 bool is_throttled(const Health& health);
 
+/// The supply's voltage is too low now, or was within the last seconds.
+bool has_under_voltage(const Health& health);
+
 }  // namespace orbwatch::app

@@ -28,7 +28,9 @@ namespace orbwatch::app {
   X(resident_memory, "MiB", 0.1, 0, 1e8, "Resident memory of orbwatch itself")                    \
   X(open_descriptors, "", 1, 0, 1e9, "Files, devices and connections that orbwatch has open")     \
   X(commands_recorded, "", 1, 0, 1,                                                               \
-    "1: each command is recorded on the disk first, so that no restart repeats it")
+    "1: each command is recorded on the disk first, so that no restart repeats it")               \
+  X(disk_written_per_day, "MiB", 1, 0, 1e9,                                                       \
+    "Written per day to the whole disk that it records to, by all programs, since power-on")
 
 /// Causes of throttling, the low bits of Health::throttling. The bits are those of the Raspberry
 /// Pi's firmware (vcgencmd get_throttled). The PLC reads the numbers: append, never renumber.

@@ -24,6 +24,7 @@ namespace orbwatch::app {
 
 using hal::kMaxCameras;
 inline constexpr std::size_t kMaxViews = 16;
+inline constexpr std::size_t kMaxProcessInputs = 32;
 
 /// State of the daemon as a whole. The numbers go to PLC and controller: append, never renumber.
 enum class SystemState : std::uint8_t {
@@ -281,6 +282,9 @@ struct Status : SystemStatus {
   Health health;
   MachineStatus machine;                    ///< at the exposure of the frame set
   std::array<StageStatus, kStages> stages;  ///< indexed by Stage
+  /// Active edges of the process inputs since start, see hal::ProcessInput::edges(): pulses between
+  /// two statuses count.
+  std::array<std::uint32_t, kMaxProcessInputs> process_input_edges{};
 };
 
 /// Calls `visit(field)` for every field of a part, in the order in which interfaces number them. A

@@ -18,6 +18,7 @@ struct StatusNames {
   std::vector<std::string> cameras;
   std::vector<std::string> views;
   std::map<std::uint16_t, std::vector<std::string>> regions;  ///< names by number of the recipe
+  std::vector<std::string> process_inputs = {};
 
   /// Empty when the region has no name.
   std::string_view region(std::uint16_t recipe, std::size_t index) const {

@@ -11,6 +11,7 @@
 #include "app/ports/web/commands/command_desk.h"
 #include "app/ports/web/configuration/configuration_desk.h"
 #include "app/ports/web/described_routes.h"
+#include "app/ports/web/device/device_desk.h"
 #include "app/ports/web/fleet/fleet_routes.h"
 #include "app/ports/web/history/history_routes.h"
 #include "app/ports/web/http/fixed_content.h"
@@ -20,7 +21,9 @@
 #include "app/ports/web/machine/machine_desk.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
+#include "app/ports/web/recordings/export_routes.h"
 #include "app/ports/web/recordings/recording_routes.h"
+#include "app/ports/web/recordings/replay_routes.h"
 #include "app/ports/web/status/openapi.h"
 #include "app/ports/web/status/status_routes.h"
 #include "app/ports/web/streams/live_stream.h"
@@ -61,6 +64,12 @@ std::vector<Route> status_routes(const RouteOwners& of) {
           "/api/v1/history", Viewer, of.history,
           "Returns the last ten minutes of one figure of a region or of a camera's supervision: "
           "lowest and highest value of each step, oldest first, null where it was not measured"),
+      get<&HistoryRoutes::table>(
+          "/api/v1/history/figures.csv", Viewer, of.history,
+          "Returns the last ten minutes of all these figures as a table: a line for each step with "
+          "its end, UTC, and lowest and highest value of each figure, empty where it was not "
+          "measured",
+          kCsv),
       get<&HistoryRoutes::alarms, AlarmsAnswer>(
           "/api/v1/history/alarms", Viewer, of.history,
           "Returns the newest events of alarms, oldest first, also those before a restart: time, "
@@ -86,7 +95,8 @@ std::vector<Route> picture_routes(const RouteOwners& of) {
       get<&StreamRoutes::live>(
           "/api/v1/live", Viewer, of.streams,
           "Streams status and views over one connection. Each message begins with a line of JSON "
-          "that states its kind and the number of bytes that follow",
+          "that states its kind, for a picture the width and height of the view, in whose pixels "
+          "all coordinates are, and the number of bytes that follow",
           LiveStream::kType),
       get<&PixelRoute::pixel, PixelAnswer>(
           "/api/v1/live/pixel", Viewer, of.pixels,
@@ -246,6 +256,20 @@ std::vector<Route> recording_routes(const RouteOwners& of) {
           "Returns one picture of an event: the recorded part; one channel of 16 bit is stretched "
           "from its darkest to its brightest pixel",
           kJpeg),
+      get<&RecordingRoutes::signals, SignalsAnswer>(
+          "/api/v1/recordings/signals", Viewer, of.recordings,
+          "Returns the signals that an event recorded with its frame sets: measurements of regions "
+          "and the machine's state"),
+      get<&RecordingRoutes::signal, RecordedCourse>(
+          "/api/v1/recordings/signal", Viewer, of.recordings,
+          "Returns a signal over an event: lowest and highest value of each step, in the order of "
+          "the recording. A step is a frame set; in events of more than 2048 it is 2, 4, 8 ... in "
+          "succession"),
+      get<&RecordingRoutes::regions, RegionsAnswer>(
+          "/api/v1/recordings/regions", Viewer, of.recordings,
+          "Returns the regions of an event's recipes in the cameras' pictures, by the "
+          "configuration "
+          "and the alignments that it was measured with. 409: the recording lacks them"),
       get<&RecordingRoutes::recording>(
           "/api/v1/recordings/event.mcap", Viewer, of.recordings,
           "Returns an event as an MCAP file in the definitions of ROS 2", kMcap),
@@ -254,6 +278,95 @@ std::vector<Route> recording_routes(const RouteOwners& of) {
                                   "Protects an event from being deleted for room, or ends that"),
       post<&RecordingRoutes::remove>("/api/v1/remove_recording", Integrator, of.recordings,
                                      of.recording_changes, "Deletes an event, also a pinned one"),
+  };
+}
+
+std::vector<Route> export_routes(const RouteOwners& of) {
+  return {
+      post<&ExportRoutes::begin>(
+          "/api/v1/export_recording", Viewer, of.exports, of.recording_changes,
+          "Begins an export of an event, or of a range of it, as a file for other programs. The "
+          "appliance makes one at a time, keeps it for 10 minutes, and leaves half of the disk's "
+          "free space above reserve_mib"),
+      get<&ExportRoutes::status>("/api/v1/recordings/export", Viewer, of.exports,
+                                 "Returns state and progress of the newest export"),
+      get<&ExportRoutes::file>("/api/v1/recordings/exported", Viewer, of.exports,
+                               "Returns the file of a finished export, once: it is removed then",
+                               kMcap),
+      post<&ExportRoutes::cancel>("/api/v1/cancel_export", Viewer, of.exports, of.recording_changes,
+                                  "Cancels an export, or removes its file; that of another user "
+                                  "needs the role operator"),
+  };
+}
+
+std::vector<Route> replay_routes(const RouteOwners& of) {
+  return {
+      post<&ReplayRoutes::begin>(
+          "/api/v1/replay_recording", Viewer, of.replays, of.recording_changes,
+          "Begins to measure an event again with a recipe, beside the process, to try a limit on "
+          "what happened. The configuration and the alignments are those in the recording; what "
+          "runs does not change. One replay runs at a time; the result of the newest is kept"),
+      get<&ReplayRoutes::status>("/api/v1/recordings/replay", Viewer, of.replays,
+                                 "Returns state and progress of the newest replay"),
+      get<&ReplayRoutes::result>(
+          "/api/v1/recordings/replayed", Viewer, of.replays,
+          "Returns the result of the newest replay: alarms as they were raised and as the recipe "
+          "raises them, and the signals that differ. Acknowledgements are not repeated"),
+      get<&ReplayRoutes::signal>(
+          "/api/v1/recordings/replayed_signal", Viewer, of.replays,
+          "Returns a signal of a region as the newest replay computed it, in steps as "
+          "/api/v1/recordings/signal"),
+      post<&ReplayRoutes::cancel>(
+          "/api/v1/cancel_replay", Viewer, of.replays, of.recording_changes,
+          "Cancels a replay, or drops its result; that of another user needs the role operator"),
+  };
+}
+
+std::vector<Route> device_routes(const RouteOwners& of) {
+  return {
+      post<&DeviceDesk::make_support>(
+          "/api/v1/make_support_file", Administrator, of.device, of.device_changes,
+          "Makes one file for technical support, without secrets: findings of orbwatch doctor, "
+          "versions, log, figures, configuration. It takes up to a minute"),
+      post<&DeviceDesk::make_backup>(
+          "/api/v1/make_backup", Administrator, of.device, of.device_changes,
+          "Makes one file of configuration, recipes, alignments, users, certificates and keys"),
+      get<&DeviceDesk::download>("/api/v1/device_file", Administrator, of.device,
+                                 "Returns the file that was made last, a tar archive in zstd. 404: "
+                                 "none was made since the start",
+                                 "application/zstd"),
+      post<&DeviceDesk::upload>(
+          "/api/v1/upload_backup", Administrator, of.device, of.device_changes,
+          "Receives the next part of a backup to be restored. 409: it does not begin at the end of "
+          "the part before, or the file is larger than a backup can be"),
+      post<&DeviceDesk::check>(
+          "/api/v1/check_restore", Administrator, of.device, of.device_changes,
+          "Checks the uploaded backup; changes nothing. Returns what restoring it would change. "
+          "409: it is damaged, its passphrase is wrong, or its configuration is not valid here"),
+      post<&DeviceDesk::restore>(
+          "/api/v1/restore", Administrator, of.device, of.device_changes,
+          "Restores the uploaded backup: restarts with its files, all of them or, if that fails, "
+          "none"),
+      post<&DeviceDesk::reset>(
+          "/api/v1/factory_reset", Administrator, of.device, of.device_changes,
+          "Restarts with the delivered configuration, and removes all other configuration, "
+          "alignments, users, certificates, keys and histories; recordings stay"),
+      get<&DeviceDesk::update, UpdateAnswer>(
+          "/api/v1/update", Administrator, of.device,
+          "Returns the running version and slot, the result of the newest update, and the progress "
+          "of an upload or installation"),
+      post<&DeviceDesk::upload_update>(
+          "/api/v1/upload_update", Administrator, of.device, of.device_changes,
+          "Receives the next part of an update. 404: the device does not run an image. 409: it "
+          "accepts no update at present, the part does not begin at the end of the part before, or "
+          "there is no room"),
+      post<&DeviceDesk::install_update>(
+          "/api/v1/install_update", Administrator, of.device, of.device_changes,
+          "Begins to check and install the uploaded update, which is deleted afterwards; "
+          "/api/v1/update has the progress and the result"),
+      post<&DeviceDesk::restart_device>(
+          "/api/v1/restart_device", Administrator, of.device, of.device_changes,
+          "Restarts the computer, which then tries the installed update. 409: none is installed"),
   };
 }
 
@@ -271,7 +384,8 @@ std::vector<Route> command_routes(const RouteOwners& of) {
 std::vector<Route> routes_of(const RouteOwners& owners) {
   std::vector<Route> all{description_route()};
   for (auto* part : {status_routes, picture_routes, alignment_routes, access_routes,
-                     configuration_routes, plant_routes, recording_routes, command_routes}) {
+                     configuration_routes, plant_routes, recording_routes, export_routes,
+                     replay_routes, device_routes, command_routes}) {
     std::ranges::move(part(owners), std::back_inserter(all));
   }
   return all;

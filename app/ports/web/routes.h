@@ -12,6 +12,8 @@ class AlignRoutes;
 class Changes;
 class CommandDesk;
 class ConfigurationDesk;
+class DeviceDesk;
+class ExportRoutes;
 class FleetRoutes;
 class HistoryRoutes;
 class InterfaceRoutes;
@@ -21,6 +23,7 @@ class MachineDesk;
 class PixelRoute;
 class RecipeRoutes;
 class RecordingRoutes;
+class ReplayRoutes;
 class StatusRoutes;
 class StreamRoutes;
 class ViewList;
@@ -46,6 +49,10 @@ struct RouteOwners {
   const MachineDesk* machine = nullptr;
   RecordingRoutes* recordings = nullptr;
   Changes* recording_changes = nullptr;  ///< thread of the recorder's files
+  ExportRoutes* exports = nullptr;
+  ReplayRoutes* replays = nullptr;
+  DeviceDesk* device = nullptr;
+  Changes* device_changes = nullptr;  ///< thread of support file, backup and restore
 };
 
 /// The whole HTTP interface without the page's files: a line for each route, and one for all

@@ -12,6 +12,7 @@
 #include "app/model/sink/interface_metric.h"
 #include "app/model/sink/interface_table.h"
 #include "app/model/sink/published.h"
+#include "app/model/sink/recorded_regions.h"
 #include "app/model/status/measured_recipe.h"
 #include "app/model/status/status_report.h"
 #include "hal/thread/shared_threads.h"
@@ -23,6 +24,8 @@ namespace orbwatch::app {
 class AlignmentSource;
 class Fleet;
 class RecordedEvents;
+class RecordedExports;
+class RecordedReplays;
 
 /// Parts of the appliance that only the page shows.
 struct PageContext {
@@ -30,9 +33,12 @@ struct PageContext {
   optics::SceneProxy scene;  ///< around it
   /// The room in each camera's whole picture, by camera; null: not to be looked around in.
   std::vector<std::shared_ptr<const optics::ViewProjection>> balls;
-  std::vector<MeasuredRecipe> recipes;               ///< what is measured
-  AlignmentSource* alignment = nullptr;              ///< outlives the sink's run; null: none
-  std::shared_ptr<RecordedEvents> events = nullptr;  ///< null: none are recorded
+  std::vector<MeasuredRecipe> recipes;                 ///< what is measured
+  AlignmentSource* alignment = nullptr;                ///< outlives the sink's run; null: none
+  std::shared_ptr<RecordedEvents> events = nullptr;    ///< null: none are recorded
+  RecordedRegionsReader regions = nullptr;             ///< of their recipes
+  std::shared_ptr<RecordedExports> exports = nullptr;  ///< null: no events are recorded
+  std::shared_ptr<RecordedReplays> replays = nullptr;  ///< null: no events are recorded
   std::filesystem::path state_folder;  ///< of what must outlast a restart; empty: no users
   Program program;                     ///< around the appliance
   /// Tables about all sinks; callable on any thread while they run. Empty function: none.

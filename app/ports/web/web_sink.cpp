@@ -31,14 +31,16 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       recording_changes_(access_, audit_, "web recordings",
                          "recordings are being read for other users at present; try again",
                          kMostOfBrowser),
+      device_changes_(access_, audit_, "web device",
+                      "another file of the whole device is being made or restored; try again"),
       list_(context),
       pixels_(context),
       status_(context.names, {[this] { return statistics(); }, context.metrics},
               version_of(context.program), settings_.status_timeout),
       balls_(context),
       streams_(
-          context.names.views, balls_.feeds(), settings_.jpeg, settings_.max_streams, threads_,
-          status_.feed(),
+          context.names.views, context.views, balls_.feeds(), settings_.jpeg, settings_.max_streams,
+          threads_, status_.feed(),
           [this](const ViewPtr& view, std::uint64_t number) { pixels_.show(view, number); },
           access_, server_counts_),
       commands_(context.commands, list_, access_, audit_),
@@ -52,7 +54,12 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
       configuration_(context.program.files, audit_, file_changes_),
       interfaces_(context.tables, context.program),
       fleet_(context.fleet),
-      recordings_(context.events, recording_changes_),
+      recordings_(context.events, context.regions, recording_changes_),
+      exports_(context.exports, recording_changes_),
+      replays_(context.replays, [this] { return status_.recipe(); }),
+      device_(
+          context.program.device, context.program.update, context.program.files,
+          [this] { return figures(); }, device_changes_),
       routes_(make_routes()),
       listeners_(
           settings_, context.state_folder,
@@ -61,12 +68,44 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
 WebSink::~WebSink() { stop(); }
 
 std::vector<web::Route> WebSink::make_routes() {
-  std::vector<web::Route> routes = web::routes_of(
-      {&status_, &streams_, &list_, &pixels_, &desk_, &access_changes_, &look_around_,
-       &configuration_, &file_changes_, &log_, &alignment_, &recipe_, &history_, &interfaces_,
-       &fleet_, &commands_, &machine_, &recordings_, &recording_changes_});
+  std::vector<web::Route> routes = web::routes_of({&status_,
+                                                   &streams_,
+                                                   &list_,
+                                                   &pixels_,
+                                                   &desk_,
+                                                   &access_changes_,
+                                                   &look_around_,
+                                                   &configuration_,
+                                                   &file_changes_,
+                                                   &log_,
+                                                   &alignment_,
+                                                   &recipe_,
+                                                   &history_,
+                                                   &interfaces_,
+                                                   &fleet_,
+                                                   &commands_,
+                                                   &machine_,
+                                                   &recordings_,
+                                                   &recording_changes_,
+                                                   &exports_,
+                                                   &replays_,
+                                                   &device_,
+                                                   &device_changes_});
   std::ranges::move(web::page_routes(), std::back_inserter(routes));
   return routes;
+}
+
+/// Texts for a support file.
+DeviceFiles::Figures WebSink::figures() const {
+  DeviceFiles::Figures texts{{"status.json", *status_.status().body},
+                             {"metrics.txt", *status_.metrics().body},
+                             {"figures.csv", *history_.table().body},
+                             {"alarms.json", *history_.alarms({web::AlarmHistory::kMost}).body}};
+  constexpr std::size_t kLines = 1000;
+  if (auto log = log_.lines({{kLines}})) {
+    texts.emplace_back("log.json", web::json_text(web::json_of(*log)));
+  }
+  return texts;
 }
 
 Result<> WebSink::start() {
@@ -81,6 +120,9 @@ void WebSink::begin() {
   access_changes_.start();
   file_changes_.start();
   recording_changes_.start();
+  exports_.start();
+  replays_.start();
+  device_changes_.start();
   is_running_ = true;
   thread_.start("web", [this] { watch(); });
 }
@@ -115,6 +157,10 @@ void WebSink::stop() {
   commands_.runner().stop();
   file_changes_.stop();
   recording_changes_.stop();
+  exports_.stop();
+  replays_.stop();
+  if (was_running) device_.cancel();
+  device_changes_.stop();
   access_changes_.stop();
   listeners_.close();
   look_around_.stop();
@@ -128,6 +174,7 @@ void WebSink::stop() {
 std::chrono::nanoseconds WebSink::cpu_time() const {
   return thread_.cpu_time() + commands_.runner().cpu_time() + look_around_.cpu_time() +
          access_changes_.cpu_time() + file_changes_.cpu_time() + recording_changes_.cpu_time() +
+         exports_.cpu_time() + replays_.cpu_time() + device_changes_.cpu_time() +
          streams_.cpu_time();
 }
 

@@ -14,6 +14,7 @@
 #include "app/ports/web/api/route.h"
 #include "app/ports/web/commands/command_desk.h"
 #include "app/ports/web/configuration/configuration_desk.h"
+#include "app/ports/web/device/device_desk.h"
 #include "app/ports/web/fleet/fleet_routes.h"
 #include "app/ports/web/history/history_routes.h"
 #include "app/ports/web/http/server.h"
@@ -25,7 +26,9 @@
 #include "app/ports/web/machine/machine_desk.h"
 #include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/process/recipe_routes.h"
+#include "app/ports/web/recordings/export_routes.h"
 #include "app/ports/web/recordings/recording_routes.h"
+#include "app/ports/web/recordings/replay_routes.h"
 #include "app/ports/web/status/status_routes.h"
 #include "app/ports/web/status/web_statistics.h"
 #include "app/ports/web/streams/stream_routes.h"
@@ -63,6 +66,7 @@ class WebSink final : public Sink {
 
  private:
   std::vector<web::Route> make_routes();
+  DeviceFiles::Figures figures() const;
   void begin();
   void pass_on(const web::ExchangePtr& exchange);
   void watch();
@@ -76,6 +80,7 @@ class WebSink final : public Sink {
   web::Access access_;
   web::Changes access_changes_, file_changes_;
   web::Changes recording_changes_;
+  web::Changes device_changes_;
   web::ViewList list_;
   web::PixelRoute pixels_;
   web::StatusRoutes status_;
@@ -93,6 +98,9 @@ class WebSink final : public Sink {
   web::InterfaceRoutes interfaces_;
   web::FleetRoutes fleet_;
   web::RecordingRoutes recordings_;
+  web::ExportRoutes exports_;
+  web::ReplayRoutes replays_;
+  web::DeviceDesk device_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
   hal::Thread thread_;  ///< ends overdue connections, reports to streams, keeps history

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/access/caller.h"
 
-#include <sodium.h>
 #include <strings.h>
 
 #include <optional>
 
+#include "app/ports/web/access/base64.h"
 #include "hal/network.h"
 
 namespace orbwatch::app::web {
@@ -24,14 +24,7 @@ std::optional<std::string> authorization_by(const Request& request, std::string_
 
 /// The password of a Base64 text "user:password"; empty: malformed.
 std::string password_in(const std::string& base64) {
-  std::string text(base64.size(), '\0');
-  std::size_t size = 0;
-  if (::sodium_base642bin(reinterpret_cast<unsigned char*>(text.data()), text.size(), base64.data(),
-                          base64.size(), nullptr, &size, nullptr,
-                          sodium_base64_VARIANT_ORIGINAL) != 0) {
-    return "";
-  }
-  text.resize(size);
+  const std::string text = bytes_of_base64(base64).value_or("");
   const std::size_t colon = text.find(':');
   return colon == std::string::npos ? "" : text.substr(colon + 1);
 }

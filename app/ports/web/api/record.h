@@ -36,7 +36,7 @@
 /// | call | for |
 /// |---|---|
 /// | `required(name, member, text, unit)` | a member that must be sent, and is always written |
-/// | `required(name, member, Range, text, unit)` | the same for a number with limits |
+/// | `required(name, member, Range, text, unit)` | the same for a number, or a list, with limits |
 /// | `required(name, member, words, text)` | the same for a word of an array of Word |
 /// | `optional(...)` | the same with the member's default; an empty std::optional is not written |
 /// | `require(truth, message)` | a rule between members of a received record |

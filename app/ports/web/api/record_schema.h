@@ -83,11 +83,13 @@ class SchemaWriter {
   static void add_fact(Json& schema, std::string_view text) {
     schema[schema.contains("description") ? "x-unit" : "description"] = text;
   }
+  /// The range of a list is that of its items.
   static void add_fact(Json& schema, const Range& range) {
-    if (range.low > kAnyNumber.low) schema["minimum"] = to_json(range.low);
-    if (range.high < kAnyNumber.high) schema["maximum"] = to_json(range.high);
-    if (!range.low_allowed) schema["exclusiveMinimum"] = true;
-    if (!range.high_allowed) schema["exclusiveMaximum"] = true;
+    Json& number = schema.contains("items") ? schema["items"] : schema;
+    if (range.low > kAnyNumber.low) number["minimum"] = to_json(range.low);
+    if (range.high < kAnyNumber.high) number["maximum"] = to_json(range.high);
+    if (!range.low_allowed) number["exclusiveMinimum"] = true;
+    if (!range.high_allowed) number["exclusiveMaximum"] = true;
   }
   template <class T, std::size_t N>
   static void add_fact(Json& schema, const std::array<Word<T>, N>& words) {

@@ -7,6 +7,7 @@
 #include "app/log.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/history/figure_file.h"
+#include "app/ports/web/history/figure_table.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -47,6 +48,8 @@ Answered<FigureAnswer> HistoryRoutes::figure(const FigureQuery& query) const {
   return refuse(404, "unknown figure; figures of /api/v1/status that have a history belong to: " +
                          names_of(figures_.components()));
 }
+
+Response HistoryRoutes::table() const { return body_response(kCsv, figure_table(figures_)); }
 
 Response HistoryRoutes::alarms(const AlarmsQuery& query) const {
   return json_response(json_text({{"alarms", events(query.events)}}));

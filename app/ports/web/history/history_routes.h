@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "app/model/status/measured_recipe.h"
@@ -13,6 +14,8 @@
 
 namespace orbwatch::app::web {
 
+inline constexpr std::string_view kCsv = "text/csv; charset=utf-8";
+
 /// Keeps and serves the history of figures and of alarms, also over restarts. Thread rule: accept
 /// on the pipeline's thread, advance and keep on one thread, everything else on any thread.
 class HistoryRoutes {
@@ -22,6 +25,8 @@ class HistoryRoutes {
                 const std::filesystem::path& state_folder);
 
   Answered<FigureAnswer> figure(const FigureQuery& query) const;
+  /// See figure_table().
+  Response table() const;
   /// AlarmsAnswer.
   Response alarms(const AlarmsQuery& query) const;
 

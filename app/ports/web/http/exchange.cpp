@@ -3,11 +3,14 @@
 
 #include <microhttpd.h>
 
+#include "app/ports/web/http/content_coding.h"
 #include "app/ports/web/http/entity_tag.h"
 
 namespace orbwatch::app::web {
 
 bool Exchange::answer(Response response) {
+  // The time of compression is spent outside the lock.
+  response = packed_for(request_, if_none_match(request_, std::move(response)));
   const std::lock_guard lock(mutex_);
   return answer_locked(std::move(response));
 }
@@ -27,7 +30,7 @@ bool Exchange::give_up(Response response) {
 bool Exchange::answer_locked(Response response) {
   if (is_answered_) return false;
   is_answered_ = true;
-  response_ = if_none_match(request_, std::move(response));
+  response_ = std::move(response);
   if (suspended_) ::MHD_resume_connection(std::exchange(suspended_, nullptr));
   return true;
 }

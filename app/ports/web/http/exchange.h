@@ -20,15 +20,16 @@ class Exchange {
 
   const Request& request() const { return request_; }
 
-  /// Answers the request, by if_none_match() of the response. False: it was answered before, for
-  /// example by the server's deadline.
+  /// Answers the request with the response after if_none_match() and packed_for(). False: it was
+  /// answered before, for example by the server's deadline.
   bool answer(Response response);
   bool is_answered() const;
 
   /// Marks that the request is about to take effect: from then on no deadline replaces the result,
   /// which must follow. False: it was answered already, and must not take effect.
   bool begin_effect();
-  /// Answers at the server's deadline, see answer(). Also false once the effect has begun.
+  /// Answers at the server's deadline with the unchanged response. False: as answer(), or the
+  /// effect has begun.
   bool give_up(Response response);
 
   /// The received body; for the server.

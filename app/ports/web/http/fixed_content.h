@@ -4,12 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "app/ports/web/http/content_coding.h"
 #include "app/ports/web/http/exchange.h"
 
 namespace orbwatch::app::web {
-
-/// Compresses like gzip(1), as small as zlib can. Reentrant.
-std::string gzip(std::string_view content);
 
 /// A content that never changes, sent compressed to clients that accept this, with an entity tag.
 /// Reentrant.

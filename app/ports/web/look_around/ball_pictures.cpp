@@ -40,8 +40,10 @@ void BallPictures::follow() {
     const auto on_pictures = [feed = ball.feed,
                               is_requested = ball.is_requested](Result<AlignmentJpegs> made) {
       if (made) {
-        feed->publish(std::make_shared<const std::string>(std::move(made->files.front())),
-                      made->stamp);
+        Item picture;
+        picture.bytes = std::make_shared<const std::string>(std::move(made->files.front()));
+        picture.stamp = made->stamp;
+        feed->publish(std::move(picture));
       } else {
         log_line(LogLevel::Error, "web: " + made.error().message);
       }

@@ -36,7 +36,10 @@ StatusRoutes::Newest StatusRoutes::newest() const {
 
 void StatusRoutes::publish() {
   if (!feed_->is_wanted()) return;
-  feed_->publish(std::make_shared<const std::string>(newest_as_json()), hal::Clock::now());
+  Item report;
+  report.bytes = std::make_shared<const std::string>(newest_as_json());
+  report.stamp = hal::Clock::now();
+  feed_->publish(std::move(report));
 }
 
 std::string StatusRoutes::newest_as_json() const {

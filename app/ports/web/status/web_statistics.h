@@ -21,6 +21,8 @@ inline constexpr Quantity kDays{"d", 0.01, -100000, 100000};
         "Pictures whose transmission in a stream was started")                                     \
   FIELD(std::uint64_t, pictures_skipped, kCount, "Pictures not sent to slower readers of streams") \
   FIELD(std::uint64_t, pictures_replaced, kCount, "Pictures replaced before they were compressed") \
+  FIELD(std::uint64_t, pictures_compressed, kCount,                                                \
+        "Pictures compressed, each once in every size that has readers")                           \
   FIELD(std::uint64_t, commands_done, kCount, "Commands carried out")                              \
   FIELD(std::uint64_t, commands_refused, kCount,                                                   \
         "Commands answered with another result than done")                                         \

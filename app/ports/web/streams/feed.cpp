@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/streams/feed.h"
 
+#include <string>
 #include <utility>
+
+#include "app/model/status/utc_text.h"
 
 namespace orbwatch::app::web {
 
@@ -9,7 +12,7 @@ Feed::Reader::Reader(std::shared_ptr<Feed> feed, std::function<void()> wake)
     : feed_(std::move(feed)),
       wake_(std::make_shared<const std::function<void()>>(std::move(wake))) {
   const std::lock_guard lock(feed_->mutex_);
-  newest_ = feed_->newest_.number;
+  returned_ = feed_->place_;
   feed_->readers_.push_back(wake_);
   feed_->count_wanted();
 }
@@ -22,11 +25,10 @@ Feed::Reader::~Reader() {
 
 std::optional<Item> Feed::Reader::next() {
   const std::lock_guard lock(feed_->mutex_);
-  const Item& newest = feed_->newest_;
-  if (newest.number == newest_) return std::nullopt;
-  skipped_ += newest.number - newest_ - 1;
-  newest_ = newest.number;
-  return newest;
+  if (feed_->place_ == returned_) return std::nullopt;
+  skipped_ += feed_->place_ - returned_ - 1;
+  returned_ = feed_->place_;
+  return feed_->newest_;
 }
 
 void Feed::answer_next(ExchangePtr exchange) {
@@ -36,24 +38,26 @@ void Feed::answer_next(ExchangePtr exchange) {
   count_wanted();
 }
 
-void Feed::publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& aim) {
+void Feed::publish(Item item) {
+  const Bytes bytes = item.bytes;
+  const std::string stamp = utc_text(hal::to_utc(item.stamp)).value_or("");
   std::vector<Wake> readers;
   std::vector<ExchangePtr> waiting;
   {
     const std::lock_guard lock(mutex_);
-    newest_ = {std::move(bytes), newest_.number + 1, stamp, aim};
+    ++place_;
+    if (item.number == 0) item.number = place_;
+    newest_ = std::move(item);
     readers = readers_;
     waiting = std::exchange(waiting_, {});
     count_wanted();
-    bytes = newest_.bytes;
   }
-  for (const ExchangePtr& exchange : waiting) exchange->answer(body_response(kJpeg, bytes));
+  for (const ExchangePtr& exchange : waiting) {
+    Response picture = body_response(kJpeg, bytes);
+    picture.headers = {{"X-Timestamp", stamp}};
+    exchange->answer(std::move(picture));
+  }
   for (const Wake& wake : readers) (*wake)();
-}
-
-std::uint64_t Feed::next_number() const {
-  const std::lock_guard lock(mutex_);
-  return newest_.number + 1;
 }
 
 void Feed::count_wanted() { wanted_ = readers_.size() + waiting_.size(); }

@@ -18,9 +18,12 @@ namespace orbwatch::app::web {
 /// Item of a feed: a picture as JPEG, or the status as JSON.
 struct Item {
   Bytes bytes;
-  std::uint64_t number = 0;  ///< counts the items of its feed from 1
+  /// Number from 1 of the picture, the same in every size; 0: publish() sets its place in the feed.
+  std::uint64_t number = 0;
   hal::TimePoint stamp;      ///< exposure start, or time of the report
-  std::optional<Aim> aim;    ///< aim of a picture
+  std::optional<Aim> aim{};  ///< aim of a picture
+  int width = 0;             ///< width of the full picture, px; 0: not known
+  int height = 0;
 };
 
 /// The newest item of one source for any number of readers, each at its own pace: a slow reader
@@ -46,7 +49,7 @@ class Feed {
 
     const std::shared_ptr<Feed> feed_;
     const std::shared_ptr<const std::function<void()>> wake_;
-    std::uint64_t newest_ = 0;  ///< number of the last item returned
+    std::uint64_t returned_ = 0;  ///< place of the last item returned
     std::uint64_t skipped_ = 0;
   };
 
@@ -56,17 +59,16 @@ class Feed {
   /// Answers `exchange` with the next item, a picture, unless it is answered earlier.
   void answer_next(ExchangePtr exchange);
 
-  void publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& aim = std::nullopt);
-  /// Number of the item that is published next. For the single publisher.
-  std::uint64_t next_number() const;
+  void publish(Item item);
 
  private:
   using Wake = std::shared_ptr<const std::function<void()>>;
 
   void count_wanted();
 
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   Item newest_;
+  std::uint64_t place_ = 0;  ///< place of the newest item, from 1; 0: none yet
   std::vector<Wake> readers_;
   std::vector<ExchangePtr> waiting_;
   std::atomic<std::size_t> wanted_{0};

@@ -33,6 +33,10 @@ void LiveStream::begin(const Source& source, Item item) {
     SentAim aim = sent_aim(*item.aim);
     head["aim"] = json_of(aim);
   }
+  if (item.width > 0) {
+    head["width"] = item.width;
+    head["height"] = item.height;
+  }
   head["bytes"] = item.bytes->size();
   head_ = head.dump() + "\n";
   body_ = std::move(item.bytes);

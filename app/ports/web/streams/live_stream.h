@@ -18,8 +18,10 @@ namespace orbwatch::app::web {
 
 /// Several feeds over one connection, in turn, because browsers limit connections per host. Each
 /// message begins with a line of JSON that states its feed, its number, UTC stamp, age when sent,
-/// the view's aim (see SentAim) and the number of bytes that follow the line:
-///   {"kind":"view","name":"front","number":7,"stamp":"...","age_ms":31.5,"aim":{...},"bytes":20480}
+/// the view's aim (see SentAim), the sides of its full picture, to which all coordinates refer, and
+/// the number of bytes that follow the line:
+///   {"kind":"view","name":"front","number":7,"stamp":"...","age_ms":31.5,"aim":{...},"width":640,
+///    "height":480,"bytes":20480}
 /// The feed of kind "status" has no name and the JSON of /api/v1/status.
 class LiveStream final : public Stream {
  public:

@@ -8,12 +8,12 @@
 
 namespace orbwatch::app::web {
 
-StreamRoutes::StreamRoutes(std::vector<std::string> views, std::vector<LiveStream::Source> others,
-                           const JpegSettings& jpeg, int max_streams,
-                           const std::shared_ptr<hal::SharedThreads>& threads,
+StreamRoutes::StreamRoutes(std::vector<std::string> names, const std::vector<PublishedView>& views,
+                           std::vector<LiveStream::Source> others, const JpegSettings& jpeg,
+                           int max_streams, const std::shared_ptr<hal::SharedThreads>& threads,
                            std::shared_ptr<Feed> status, const ViewEncoder::OnPicture& on_picture,
                            Access& access, ServerCounts& counts)
-    : names_(std::move(views)),
+    : names_(std::move(names)),
       others_(std::move(others)),
       max_streams_(static_cast<std::uint64_t>(max_streams)),
       status_(std::move(status)),
@@ -22,34 +22,38 @@ StreamRoutes::StreamRoutes(std::vector<std::string> views, std::vector<LiveStrea
       asked_(names_.size()) {
   views_.reserve(names_.size());
   for (std::size_t i = 0; i < names_.size(); ++i) {
+    widths_.push_back(views[i].spec.width);
     views_.push_back(std::make_unique<ViewEncoder>(jpeg, threads, on_picture));
   }
 }
 
-Answered<std::shared_ptr<Feed>> StreamRoutes::feed_of(const std::string& view) const {
+Answered<std::shared_ptr<Feed>> StreamRoutes::feed_of(const std::string& view, int width) const {
   const auto other = std::ranges::find(others_, view, &LiveStream::Source::name);
   if (other != others_.end()) return other->feed;
-  return index_of("view", view, names_).map([this](std::size_t i) { return views_[i]->feed(); });
+  return index_of("view", view, names_).map([&](std::size_t i) {
+    return views_[i]->feed(size_for(width, widths_[i]));
+  });
 }
 
-void StreamRoutes::snapshot(const ViewQuery& query, const ExchangePtr& exchange) const {
-  auto feed = feed_of(query.view);
+void StreamRoutes::snapshot(const PictureQuery& query, const ExchangePtr& exchange) const {
+  auto feed = feed_of(query.view, query.width);
   if (feed) return (*feed)->answer_next(exchange);
   exchange->answer(std::move(feed.error()));
 }
 
-Response StreamRoutes::stream(const ViewQuery& query, const Request& request) {
-  auto feed = feed_of(query.view);
+Response StreamRoutes::stream(const PictureQuery& query, const Request& request) {
+  auto feed = feed_of(query.view, query.width);
   if (!feed) return std::move(feed.error());
   return start(player_credentials_of(request), MjpegStream::kType,
                std::make_shared<MjpegStream>(*feed, counts_));
 }
 
-/// Serves each view once, however often it is named.
+/// Serves each view once, in the first of its widths, however often it is named.
 Response StreamRoutes::live(const LiveQuery& query, const Request& request) {
   std::vector<LiveStream::Source> sources{{"", status_}};
-  for (const std::string& name : query.view) {
-    auto feed = feed_of(name);
+  for (std::size_t i = 0; i < query.view.size(); ++i) {
+    const std::string& name = query.view[i];
+    auto feed = feed_of(name, query.width.empty() ? 0 : query.width[i]);
     if (!feed) return std::move(feed.error());
     if (std::ranges::find(sources, name, &LiveStream::Source::name) == sources.end()) {
       sources.push_back({name, *feed});
@@ -97,7 +101,10 @@ std::chrono::nanoseconds StreamRoutes::cpu_time() const {
 void StreamRoutes::count(WebStatistics& statistics) const {
   statistics.pictures_sent = counts_.sent;
   statistics.pictures_skipped = counts_.skipped;
-  for (const auto& view : views_) statistics.pictures_replaced += view->replaced();
+  for (const auto& view : views_) {
+    statistics.pictures_replaced += view->replaced();
+    statistics.pictures_compressed += view->compressed_pictures();
+  }
 }
 
 }  // namespace orbwatch::app::web

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/model/sink/published.h"
 #include "app/model/sink/view.h"
 #include "app/ports/web/access/access.h"
 #include "app/ports/web/api/route.h"
@@ -25,26 +26,34 @@ namespace orbwatch::app::web {
 /// A request for the status and any views.
 struct LiveQuery {
   std::vector<std::string> view;
+  std::vector<int> width;
 };
 template <class Visitor>
 void visit(Visitor& v, LiveQuery& query) {
   v.optional("view", query.view, "Names of views, each as an argument of its own");
+  v.optional(
+      "width", query.width, kShownWidths,
+      "Widths at which they are displayed, one for each view in their order, or none; as for "
+      "/stream.mjpg",
+      "px");
+  v.require(query.width.empty() || query.width.size() == query.view.size(),
+            "width must be there once for each view, in their order, or not at all");
 }
 
 /// Compresses the pictures of views while they have readers, and serves them. Thread rule: wants
 /// and accept on the pipeline's thread; stop by the owner; everything else on any thread.
 class StreamRoutes {
  public:
-  /// `others` are feeds of pictures that are served beside those of views. `max_streams` is the
-  /// limit of open streams. `status` is the feed of the status. `on_picture` as for ViewEncoder.
-  /// `access` and `counts` outlive the routes.
-  StreamRoutes(std::vector<std::string> views, std::vector<LiveStream::Source> others,
-               const JpegSettings& jpeg, int max_streams,
+  /// `views` by their index, like `names`. `others` are feeds of pictures in one size that are
+  /// served beside those of views. `max_streams` is the limit of open streams. `status` is the feed
+  /// of the status. `on_picture` as for ViewEncoder. `access` and `counts` outlive the routes.
+  StreamRoutes(std::vector<std::string> names, const std::vector<PublishedView>& views,
+               std::vector<LiveStream::Source> others, const JpegSettings& jpeg, int max_streams,
                const std::shared_ptr<hal::SharedThreads>& threads, std::shared_ptr<Feed> status,
                const ViewEncoder::OnPicture& on_picture, Access& access, ServerCounts& counts);
 
-  void snapshot(const ViewQuery& query, const ExchangePtr& exchange) const;
-  Response stream(const ViewQuery& query, const Request& request);
+  void snapshot(const PictureQuery& query, const ExchangePtr& exchange) const;
+  Response stream(const PictureQuery& query, const Request& request);
   Response live(const LiveQuery& query, const Request& request);
 
   /// Returns whether the picture of this moment has readers or is wanted otherwise; accept() takes
@@ -58,10 +67,12 @@ class StreamRoutes {
   void count(WebStatistics& statistics) const;
 
  private:
-  Answered<std::shared_ptr<Feed>> feed_of(const std::string& view) const;
+  /// Feed of a view's pictures for clients that display them in this width, px; 0: full size.
+  Answered<std::shared_ptr<Feed>> feed_of(const std::string& view, int width) const;
   Response start(Credentials credentials, std::string_view type, std::shared_ptr<Stream> stream);
 
   const std::vector<std::string> names_;
+  std::vector<int> widths_;  ///< full widths by view, px
   const std::vector<LiveStream::Source> others_;
   const std::uint64_t max_streams_;
   const std::shared_ptr<Feed> status_;

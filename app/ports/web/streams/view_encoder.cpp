@@ -1,22 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/streams/view_encoder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/log.h"
 
 namespace orbwatch::app::web {
+namespace {
+
+/// Limit of the quality in the smaller sizes, whose clients ask for few bytes.
+constexpr int kReducedQuality = 75;
+
+}  // namespace
+
+std::array<ViewEncoder::Size, kQuarters.size()> ViewEncoder::make_sizes(const JpegSettings& jpeg) {
+  JpegSettings reduced = jpeg;
+  reduced.quality = std::min(reduced.quality, kReducedQuality);
+  return {Size{JpegQuality(jpeg)}, Size{JpegQuality(reduced)}, Size{JpegQuality(reduced)},
+          Size{JpegQuality(reduced)}};
+}
 
 ViewEncoder::ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads,
                          OnPicture on_picture)
     : period_(hal::period_of(jpeg.rate)),
-      quality_(jpeg),
+      sizes_(make_sizes(jpeg)),
       on_picture_(std::move(on_picture)),
       work_(std::move(threads), [this] { encode(); }) {}
 
+bool ViewEncoder::has_readers() const {
+  return std::ranges::any_of(sizes_, [](const Size& size) { return size.feed->is_wanted(); });
+}
+
 /// Returns whether a picture is due, with a tolerance of a quarter period for jitter.
 bool ViewEncoder::wants(hal::TimePoint stamp, bool is_wanted) const {
-  return (is_wanted || feed_->is_wanted()) && stamp >= due_ - period_ / 4;
+  return (is_wanted || has_readers()) && stamp >= due_ - period_ / 4;
 }
 
 void ViewEncoder::accept(const ViewPtr& view) {
@@ -31,22 +49,36 @@ void ViewEncoder::stop() {
   mailbox_.discard();
 }
 
+Result<Bytes> ViewEncoder::compressed(const Picture& picture, std::size_t size) {
+  const Picture sized = size == kFullSize ? picture
+                                          : scaler_.scaled(picture, side_in(size, picture.width),
+                                                           side_in(size, picture.height));
+  JpegQuality& quality = sizes_[size].quality;
+  auto jpeg = encoder_.encode(sized, quality.current());
+  while (jpeg && quality.adapt(jpeg->size())) jpeg = encoder_.encode(sized, quality.current());
+  return jpeg.map([](std::span<std::uint8_t> bytes) {
+    return Bytes(std::make_shared<const std::string>(bytes.begin(), bytes.end()));
+  });
+}
+
 void ViewEncoder::encode() {
-  auto view = mailbox_.try_take();
-  if (!view) return;
-  auto jpeg = encoder_.encode((*view)->picture, quality_.current());
-  while (jpeg && quality_.adapt(jpeg->size())) {
-    jpeg = encoder_.encode((*view)->picture, quality_.current());
+  const auto taken = mailbox_.try_take();
+  if (!taken) return;
+  const View& view = **taken;
+  const std::uint64_t number = ++number_;
+  on_picture_(*taken, number);
+  for (std::size_t size = 0; size < sizes_.size(); ++size) {
+    Feed& feed = *sizes_[size].feed;
+    if (!feed.is_wanted()) continue;
+    auto jpeg = compressed(view.picture, size);
+    if (!jpeg) {
+      log_line(LogLevel::Error, "web: " + jpeg.error().message);
+      return;
+    }
+    ++compressed_;
+    feed.publish({std::move(*jpeg), number, view.stamp, aim_of(view), view.picture.width,
+                  view.picture.height});
   }
-  const hal::TimePoint stamp = (*view)->stamp;
-  const Aim aim = aim_of(**view);
-  if (!jpeg) {
-    log_line(LogLevel::Error, "web: " + jpeg.error().message);
-    return;
-  }
-  on_picture_(*view, feed_->next_number());
-  view.reset();
-  feed_->publish(std::make_shared<const std::string>(jpeg->begin(), jpeg->end()), stamp, aim);
 }
 
 }  // namespace orbwatch::app::web

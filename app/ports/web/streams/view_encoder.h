@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -10,18 +11,20 @@
 #include "app/model/sink/view.h"
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/jpeg_quality.h"
+#include "app/pictures/picture_scaler.h"
 #include "app/ports/web/streams/feed.h"
+#include "app/ports/web/streams/picture_sizes.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app::web {
 
-/// Compresses the newest picture of a view for its feed on shared threads, only while the feed has
-/// readers.
+/// Compresses the newest picture of a view on shared threads, once in each size whose feed has
+/// readers, for all of them.
 /// Thread rule: wants and accept on the pipeline's thread; everything else by the owner.
 class ViewEncoder {
  public:
-  /// Called with a view and the number under which its picture is sent next.
+  /// Called with a view and the number under which its picture is sent next, in every size.
   using OnPicture = std::function<void(const ViewPtr&, std::uint64_t number)>;
 
   /// `on_picture` runs on the shared threads, before any reader has the picture.
@@ -35,21 +38,34 @@ class ViewEncoder {
   /// Waits for the picture in progress and drops the waiting one.
   void stop();
 
-  const std::shared_ptr<Feed>& feed() const { return feed_; }
+  /// Feed of the pictures of a size, a place in kQuarters.
+  const std::shared_ptr<Feed>& feed(std::size_t size) const { return sizes_[size].feed; }
   std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
   /// Number of pictures replaced before they were compressed.
   std::uint64_t replaced() const { return mailbox_.drops(); }
+  /// Number of pictures compressed, in all sizes together.
+  std::uint64_t compressed_pictures() const { return compressed_; }
 
  private:
+  struct Size {
+    JpegQuality quality;
+    std::shared_ptr<Feed> feed = std::make_shared<Feed>();
+  };
+  static std::array<Size, kQuarters.size()> make_sizes(const JpegSettings& jpeg);
+
+  bool has_readers() const;
   void encode();
+  Result<Bytes> compressed(const Picture& picture, std::size_t size);
 
   const hal::Clock::duration period_;  ///< shortest interval of pictures; 0: no limit
   hal::TimePoint due_;  ///< time of the next picture; used by the accepting thread only
   hal::Mailbox<ViewPtr> mailbox_;
-  JpegQuality quality_;
+  std::array<Size, kQuarters.size()> sizes_;
+  PictureScaler scaler_;
   JpegEncoder encoder_;
+  std::uint64_t number_ = 0;  ///< number of the newest picture; used by encode() only
+  std::atomic<std::uint64_t> compressed_{0};
   const OnPicture on_picture_;
-  const std::shared_ptr<Feed> feed_ = std::make_shared<Feed>();
   hal::SharedThreads::Work work_;
 };
 

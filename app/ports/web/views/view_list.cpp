@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/pictures/colour_maps.h"
+#include "app/ports/web/streams/picture_sizes.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -28,6 +29,9 @@ SentView sent_view(const std::string& name, std::size_t index, const PublishedVi
   SentView sent;
   sent.name = name;
   sent.index = index;
+  sent.width = view.spec.width;
+  sent.height = view.spec.height;
+  sent.widths = widths_of(sent.width);
   sent.is_measured = view.measured;
   sent.is_pointed = !view.measured && view.spec.kind != optics::ViewKind::Ball;
   sent.is_zoomed = sent.is_pointed && view.spec.kind == optics::ViewKind::Perspective;

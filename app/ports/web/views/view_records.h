@@ -56,6 +56,8 @@ void visit(Visitor& v, SentSource& source) {
 struct SentView {
   std::string name;
   std::size_t index = 0;
+  int width = 0, height = 0;
+  std::vector<int> widths;
   bool is_measured = false, is_pointed = false, is_zoomed = false, is_mixed = false;
   std::optional<SentAim> aim;
   SentAim configured;
@@ -65,6 +67,10 @@ template <class Visitor>
 void visit(Visitor& v, SentView& view) {
   v.required("name", view.name, "Name of the view");
   v.required("index", view.index, "Argument view of commands");
+  v.required("width", view.width, "Width of its full picture", "px");
+  v.required("height", view.height, "Height of its full picture", "px");
+  v.required("widths", view.widths,
+             "Widths of the sizes in which its pictures are sent, the largest first", "px");
   v.required("is_measured", view.is_measured, "It has a plane that is measured");
   v.required("is_pointed", view.is_pointed, "point_view changes its direction");
   v.required("is_zoomed", view.is_zoomed, "point_view changes its field of view");

@@ -26,6 +26,10 @@ inline WebContext make_context() {
   WebContext context;
   context.names = app::tests::make_names();
   context.views.resize(context.names.views.size());
+  for (PublishedView& view : context.views) {
+    view.spec.width = 64;
+    view.spec.height = 48;
+  }
   context.commands.record = std::make_shared<CommandRecord>();
   context.background = hal::SharedThreads::alone();
   return context;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Align } from "./align/align.js";
 import { describeFigures } from "./appliance/api.js";
+import { AskedWidths } from "./appliance/asked_widths.js";
 import { Faults } from "./appliance/faults.js";
 import { Stream } from "./appliance/stream.js";
 import { Views } from "./appliance/views.js";
@@ -70,15 +71,15 @@ function showCondition(status) {
   say(isSilent ? texts.silent : state_text, isSilent || state !== figures.system.state.codes.running);
 }
 
-// Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost(),
-// views, and isChanged: it has changes that are not sent.
+// Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost(), views, each
+// with the width in which it is displayed, device px, 0: in full; and isChanged: it has changes that are not sent.
 const kTabs = [
   { name: "live", make: (section) => new Live(section, views, faults, choose, isAtLeast("operator")) },
   { name: "look", make: (section) => new Look(section, choose) },
   { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
   { name: "process",
     make: (section) => new Process(section, faults, recipe, figures, isAtLeast("integrator"), choose) },
-  { name: "recordings", make: (section) => new Recordings(section, isAtLeast) },
+  { name: "recordings", make: (section) => new Recordings(section, figures, isAtLeast) },
   { name: "system", make: (section) => new System(section, views, recipe, figures, session) },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
@@ -101,7 +102,8 @@ const figures = await figuresOfAppliance();
 const made = [];
 // The shown tab with pictures of views, if any.
 const shown = () => made.find((tab) => tab.views && tab.isShown);
-const choose = () => stream.choose(shown()?.views ?? []);
+const widths = new AskedWidths(views);
+const choose = () => stream.choose(widths.of(shown()?.views ?? []));
 for (const { name, make } of tabs) made.push(make(document.getElementById(name)));
 const stream = new Stream(
   (message) => {
@@ -122,6 +124,7 @@ const stream = new Stream(
   },
 );
 addEventListener("hashchange", choose);
+views.addEventListener("change", choose);
 // The browser asks before unsent changes are lost.
 addEventListener("beforeunload", (event) => {
   if (recipe.body || made.some((tab) => tab.isChanged)) event.preventDefault();

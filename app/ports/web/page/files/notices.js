@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Header of all pages: the recipe, and what needs a person: alarms that stand or are not acknowledged, cameras
-// that are not aligned, a machine whose state is not known, a configuration that is on trial or refused.
+// that are not aligned, a machine whose state is not known, a board whose supply is too weak or that is too hot, a
+// configuration that is on trial or refused.
 import { raisedAlarms } from "./appliance/alarms.js";
 import { isMachineFault } from "./appliance/faults.js";
 import { element, setText } from "./elements/elements.js";
@@ -10,11 +11,18 @@ import { texts } from "./texts.js";
 // Numbers of app/model/status/watch_status.h, which stay the same.
 const kMoved = [2, 3], kNotRegistered = 4;
 const kNotAligned = 2;
+// Bits of Throttling in app/model/status/health.h, those that apply now.
+const kUnderVoltage = 1, kSlowedDown = 14;
 
 function alignmentNotice({ name, alignment, outline_check: check, outline_offset: percent }) {
   if (alignment === kNotRegistered) return texts.notices.notRegistered(name);
   if (check === kNotAligned) return texts.notices.notAligned(name, percent);
   return kMoved.includes(alignment) ? texts.notices.moved(name) : "";
+}
+
+function powerNotice({ throttling }) {
+  if (throttling & kUnderVoltage) return texts.notices.underVoltage;
+  return throttling & kSlowedDown ? texts.notices.throttled : "";
 }
 
 function notice(page) {
@@ -55,16 +63,18 @@ export class Notices {
     this.alignment = notice("align");
     this.configuration = notice("system");
     this.machine = notice("system");
+    this.power = notice("system");
     this.trial = new TrialNotice(mayChange);
-    root.append(this.recipe, this.alarms, this.alignment, this.configuration, this.machine,
+    root.append(this.recipe, this.alarms, this.alignment, this.configuration, this.machine, this.power,
       this.trial.root);
     recipe.addEventListener("change", () => setText(this.recipe, texts.notices.recipe(recipe.stated)));
     addEventListener("hashchange", () => this.#entitle());
     this.#entitle();
   }
 
-  status({ alarms = [], cameras, machine, system }) {
+  status({ alarms = [], cameras, health, machine, system }) {
     show(this.machine, isMachineFault(machine) ? texts.notices.machine : "");
+    show(this.power, powerNotice(health));
     show(this.configuration, system.configuration_refused ? texts.notices.refused : "");
     this.trial.show(system.trial_left);
     const raised = raisedAlarms(alarms);

@@ -177,6 +177,15 @@ TEST_F(Diagnostics, BoardWarnsOfWhatIsWrongNow) {
   EXPECT_EQ(level("orbwatch: health"), DiagnosticLevel::Ok);
   health.throttling = 0x01;
   EXPECT_EQ(level("orbwatch: health"), DiagnosticLevel::Warn);
+  EXPECT_EQ(found("orbwatch: health").message,
+            "under-voltage: the supply or its cable is too weak");
+  health.throttling = 0x08;
+  EXPECT_EQ(found("orbwatch: health").message,
+            "the processors are throttled: too hot, or the supply is too weak");
+  health.throttling = 0x05;
+  EXPECT_EQ(found("orbwatch: health").message,
+            "under-voltage: the supply or its cable is too weak; the processors are throttled: too "
+            "hot, or the supply is too weak");
   health.throttling = 0;
   health.clock_synchronised = 0;
   EXPECT_EQ(found("orbwatch: health").message, "the clock follows no time server");

@@ -315,6 +315,8 @@ void RegisterSources::expect_health() {
     expect([&](ProcessImage& s) { s.live.status.health.*figure.get = other; }, names);
   }
   expect([](ProcessImage& s) { s.live.status.health.throttling = 0x10; }, {"health_throttling"});
+  expect([](ProcessImage& s) { s.live.status.health.throttling = 0x08; },
+         {"health_throttling", "fault_bits"});
   expect([](ProcessImage& s) { s.live.status.health.clock_synchronised = signals::kNotValid; },
          {"health_clock_synchronised", "clock_synchronised?", "status_bits"});
 }

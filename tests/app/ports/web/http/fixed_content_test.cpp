@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/http/fixed_content.h"
 
-#include <random>
-
 #include "tests/app/ports/web/gunzip.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {
 namespace {
-
-TEST(Gzip, KeepsWhatItCompresses) {
-  std::string noise(100'000, '\0');
-  std::mt19937 random(1);
-  for (char& byte : noise) byte = static_cast<char>(random());
-  for (const std::string& content :
-       {std::string(), std::string("a"), std::string(500'000, 'a'), noise}) {
-    EXPECT_EQ(gunzip(gzip(content)), content) << content.size();
-  }
-  EXPECT_LT(gzip(std::string(500'000, 'a')).size(), 1000U);
-}
 
 /// The largest answer of a page's first load.
 TEST_F(Served, TheDescriptionIsSentPackedAndOnlyOnce) {

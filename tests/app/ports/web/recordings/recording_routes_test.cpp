@@ -50,13 +50,32 @@ class Events : public RecordedEvents {
   }
   Result<std::vector<RecordedFrames>> frames(std::string_view event) override {
     return file(event, ".mcap").map([](const auto&) {
-      return std::vector<RecordedFrames>{{"thermal", {"2026-11-28T12:00:00Z"}}};
+      return std::vector<RecordedFrames>{
+          {"thermal", {"2026-11-28T12:00:00Z"}, {{0, 8, 4, 40, 30}}}};
     });
   }
   Result<std::string> frame(std::string_view event, std::string_view camera,
                             std::size_t frame) override {
     return file(event, ".mcap").map([&](const auto&) {
       return std::string(camera) + " " + std::to_string(frame);
+    });
+  }
+  Result<std::vector<RecordedSignal>> signals(std::string_view event) override {
+    return file(event, ".mcap").map([](const auto&) {
+      return std::vector<RecordedSignal>{{"pool", "width", "mm"}, {"", "layer", ""}};
+    });
+  }
+  Result<std::vector<RecordedRecipeChange>> recipes(std::string_view event) override {
+    return file(event, ".mcap").map([](const auto&) {
+      return std::vector<RecordedRecipeChange>{{"2026-11-28T12:00:00Z", 3}};
+    });
+  }
+  Result<RecordedCourse> course(std::string_view event, const std::string& region,
+                                const std::string& figure) override {
+    return file(event, ".mcap").and_then([&](const auto&) -> Result<RecordedCourse> {
+      if (region != "pool") return fail("the event has no signal " + figure);
+      return RecordedCourse{
+          "mm", {"2026-11-28T12:00:00Z", ""}, {7, 8}, {1.5, signals::kNotValid}, {2, 3}};
     });
   }
   Result<> set_pinned(std::string_view event, bool is_pinned) override {
@@ -89,11 +108,19 @@ class Events : public RecordedEvents {
   std::shared_ptr<const std::vector<RecordedEvent>> list_;
 };
 
+/// The event e1 alone has a configuration.
+Result<std::vector<RecordedRecipe>> regions_in(const std::filesystem::path& recording) {
+  const std::string name = recording.filename().string();
+  if (name != "e1.mcap") return fail("no configuration in it");
+  return std::vector<RecordedRecipe>{{3, {{name, "thermal", {{{1.5, 2}, {3, 4}}}}}}};
+}
+
 class RecordingRoutes : public Served {
  protected:
   void SetUp() override {
     WebContext context = make_context();
     context.events = events;
+    context.regions = regions_in;
     context.state_folder = folder.path();
     serve(context);
   }
@@ -162,11 +189,43 @@ TEST_F(RecordingRoutes, SendSinglePictures) {
   events->add("e1", "recording");
   const Answer frames = get(port(), "/api/v1/recordings/frames?event=e1");
   EXPECT_EQ(json::parse(frames.body), json::parse(R"({"cameras": [{"camera": "thermal",
-                                         "times": ["2026-11-28T12:00:00Z"]}]})"));
+      "times": ["2026-11-28T12:00:00Z"],
+      "parts": [{"first": 0, "x": 8, "y": 4, "width": 40, "height": 30}]}]})"));
   const std::string path = "/api/v1/recordings/frame.jpg?event=e1&camera=thermal&frame=";
   EXPECT_EQ(get(port(), path + "7").body, "thermal 7");
   EXPECT_EQ(get(port(), path + "-1").status, 400);
   EXPECT_EQ(get(port(), "/api/v1/recordings/frames?event=e2").status, 404);
+}
+
+TEST_F(RecordingRoutes, SendSignalsOverTime) {
+  events->add("e1", "recording");
+  const Answer all = get(port(), "/api/v1/recordings/signals?event=e1");
+  EXPECT_EQ(json::parse(all.body), json::parse(R"({"signals": [
+      {"region": "pool", "figure": "width", "unit": "mm"},
+      {"region": "", "figure": "layer", "unit": ""}]})"));
+  const std::string path = "/api/v1/recordings/signal?event=e1&figure=width";
+  EXPECT_EQ(json::parse(get(port(), path + "&region=pool").body), json::parse(R"({"unit": "mm",
+      "times": ["2026-11-28T12:00:00Z", ""], "frame_sets": [7, 8], "low": [1.5, null],
+      "high": [2, 3]})"));
+  const Answer none = get(port(), path);
+  EXPECT_EQ(none.status, 404);
+  EXPECT_THAT(none.body, HasSubstr("no signal width"));
+  EXPECT_EQ(get(port(), "/api/v1/recordings/signals?event=e2").status, 404);
+  EXPECT_EQ(get(port(), "/api/v1/recordings/signal?event=e1").status, 400);
+}
+
+TEST_F(RecordingRoutes, SendTheRegionsOfTheRecordedRecipes) {
+  events->add("e1", "recording");
+  const std::string path = "/api/v1/recordings/regions?event=";
+  EXPECT_EQ(json::parse(get(port(), path + "e1").body), json::parse(R"({
+      "changes": [{"time": "2026-11-28T12:00:00Z", "recipe": 3}],
+      "recipes": [{"number": 3, "regions": [
+          {"name": "e1.mcap", "camera": "thermal", "lines": [[[1.5, 2], [3, 4]]]}]}]})"));
+  events->add("e2", "another");
+  const Answer without = get(port(), path + "e2");
+  EXPECT_EQ(without.status, 409);
+  EXPECT_THAT(without.body, HasSubstr("no configuration in it"));
+  EXPECT_EQ(get(port(), path + "e3").status, 404);
 }
 
 TEST_F(RecordingRoutes, RefuseWhatIsNoEventOrHasNoFile) {

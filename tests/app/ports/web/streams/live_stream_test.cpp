@@ -59,7 +59,12 @@ TEST_F(Served, LiveStreamCountsAmongTheStreams) {
   EXPECT_EQ(get(port(), "/api/v1/live").status, 503);
 }
 
-web::Bytes bytes_of(const std::string& text) { return std::make_shared<const std::string>(text); }
+Item item_of(const std::string& text) {
+  Item item;
+  item.bytes = std::make_shared<const std::string>(text);
+  item.stamp = hal::Clock::now();
+  return item;
+}
 
 std::string read(LiveStream& stream, std::size_t most) {
   std::string out(most, '\0');
@@ -76,8 +81,8 @@ TEST(LiveStream, TakesItsSourcesByTurnsAndTheNewestOfEach) {
   stream.on_data([] {});
   std::map<std::string, int> messages;
   for (int round = 0; round < 10; ++round) {
-    for (int n = 0; n < 3; ++n) a->publish(bytes_of("of a"), hal::Clock::now());
-    b->publish(bytes_of("of b"), hal::Clock::now());
+    for (int n = 0; n < 3; ++n) a->publish(item_of("of a"));
+    b->publish(item_of("of b"));
     const std::string message = read(stream, 4096);
     ++messages[message.substr(message.find('\n') + 1)];
   }
@@ -93,7 +98,7 @@ TEST(LiveStream, IsTheSameInPiecesOfAnySize) {
   LiveStream stream({{"a \"name\"\n", feed}}, counts);
   stream.on_data([] {});
   for (const std::size_t piece : {1U, 7U, 64U, 4096U}) {
-    feed->publish(bytes_of(std::string(1000, 'x') + "\n"), hal::Clock::now());
+    feed->publish(item_of(std::string(1000, 'x') + "\n"));
     std::string all;
     for (std::string part = read(stream, piece); !part.empty(); part = read(stream, piece)) {
       all += part;

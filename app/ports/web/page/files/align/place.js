@@ -27,7 +27,10 @@ export class Place {
     this.pixel = element("form", { id: "point" }, number(texts.place.u, "u"), number(texts.place.v, "v"),
       ...kCoordinates.map((name) => number(texts.place[name], name)),
       element("button", {}, texts.place.add));
-    this.pixel.addEventListener("submit", (event) => this.#add(event));
+    this.pixel.addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.#add();
+    });
     this.pixel.addEventListener("input", () => this.#mark());
     const light = element("button", { type: "button" }, texts.place.light);
     light.addEventListener("click", () => this.#markLight());
@@ -37,8 +40,7 @@ export class Place {
     this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, "", ""],
       texts.place.points);
     this.root = element("section", { id: "place" }, element("p", {}, texts.place.help), this.pixel,
-      this.offers, this.points.root,
-      element("p", { className: "buttons" }, light, this.run, this.forget));
+      element("p", { className: "buttons" }, light, this.run, this.forget), this.offers, this.points.root);
   }
 
   #coordinates() {
@@ -46,8 +48,7 @@ export class Place {
       [name, Number(this.pixel.elements[name].value)]));
   }
 
-  async #add(event) {
-    event.preventDefault();
+  async #add() {
     const { u, v } = this.pixel.elements;
     const why = await this.give("pick_pixel", { u: Number(u.value), v: Number(v.value) });
     if (!why && !(await this.give("mark_point", this.#coordinates()))) this.forgetPixel();
@@ -60,15 +61,16 @@ export class Place {
     this.onMark(pixel);
   }
 
-  // Offers the coordinates of the scene's corners that the picture shows nearest to the pixel.
+  // Offers the scene's corners that the picture shows nearest to the pixel; the chosen one is added.
   #offer(at) {
     const distance = ({ pixel: [u, v] }) => Math.hypot(u - at[0], v - at[1]);
     const nearest = at ? [...this.#corners].sort((a, b) => distance(a) - distance(b)).slice(0, kOffered) : [];
     this.offers.replaceChildren(...nearest.map(({ point }) => {
       const button = element("button", { type: "button" }, texts.place.corner(rounded(point, 1)));
-      button.addEventListener("click", () => kCoordinates.forEach((name, k) => {
-        this.pixel.elements[name].value = Number(point[k].toFixed(2));
-      }));
+      button.addEventListener("click", () => {
+        kCoordinates.forEach((name, k) => { this.pixel.elements[name].value = Number(point[k].toFixed(2)); });
+        this.#add();
+      });
       return button;
     }));
   }

@@ -8,7 +8,7 @@ const kRetryMs = 500;
 const kSilenceMs = 3000;
 
 export class Stream {
-  #views = null; // names; null before the first choice
+  #views = null; // {name, width}; null before the first choice
   #abort = null;
   #retry = 0;
   #silence = 0;
@@ -20,6 +20,7 @@ export class Stream {
     document.addEventListener("visibilitychange", () => this.#restart());
   }
 
+  // `views`: names with the width in which each is asked for, 0: in full.
   choose(views) {
     if (JSON.stringify(views) === JSON.stringify(this.#views)) return;
     this.#views = [...views];
@@ -48,7 +49,7 @@ export class Stream {
   }
 
   async #read(abort) {
-    const query = new URLSearchParams(this.#views.map((name) => ["view", name]));
+    const query = new URLSearchParams(this.#views.flatMap(({ name, width }) => [["view", name], ["width", width]]));
     const answer = await fetch(`api/v1/live?${query}`, { signal: abort.signal });
     if (!answer.ok) throw new Error(`status ${answer.status}`);
     const framing = new Framing();

@@ -23,6 +23,11 @@ export class Views extends EventTarget {
     this.#isStale = true;
   }
 
+  // Widths of the sizes in which a view's pictures are sent, the largest first; none: not known.
+  sizesOf(name) {
+    return this.all.find((view) => view.name === name)?.widths ?? [];
+  }
+
   // Names of the cameras of a view; none: the view is unknown yet.
   camerasOf(name) {
     return this.all.find((view) => view.name === name)?.sources.map(({ camera }) => camera) ?? [];

@@ -50,6 +50,16 @@ export class ValueAxis {
   }
 }
 
+// {x, text} of each tick at round seconds from `zero`; `xOf(at)`: place of a time, px.
+export function secondTicks(first, last, zero, xOf) {
+  const px = (xOf(last) - xOf(first)) / (last - first), step = roundStep(kTimeTickPx / px / 1000);
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), ticks = [];
+  for (let n = Math.ceil((first - zero) / 1000 / step); zero + n * step * 1000 <= last; ++n) {
+    ticks.push({ x: xOf(zero + n * step * 1000), text: decimalText(n * step || 0, decimals) });  // not -0
+  }
+  return ticks;
+}
+
 // {x, text} of each tick in the last `spanMs` before `end`, milliseconds since 1970.
 export function timeTicks(width, spanMs, end) {
   const px = width / spanMs, offset = kMinuteMs * new Date(end).getTimezoneOffset();

@@ -3,16 +3,17 @@
 // and curve.js it has 12 kB; dygraph.min.js of libjs-dygraphs 2.2.1 has 131 kB, without limits that are dragged.
 import { kHistoryMs } from "../appliance/history.js";
 import { texts } from "../texts.js";
-import { amountText, figureText, unitSymbol, withUnit } from "./amounts.js";
+import { amountText, figureText, withUnit } from "./amounts.js";
 import { timeTicks, ValueAxis } from "./axis.js";
 import { secondText, wallTime } from "./clock.js";
-import { freshBrush, pointAt, pointsOf, strokeCurve, valuesOf } from "./curve.js";
+import { freshBrush, pointAt, pointsOf, recentX, strokeCurve, valuesOf } from "./curve.js";
 import { element, setText } from "./elements.js";
+import { Grid } from "./grid.js";
 import { drawn, place } from "./shapes.js";
 
 const kAxisPx = 56;    // width of the labels of an axis, or of limits
 const kMarginPx = 8;   // the same without labels
-const kNowPx = 40;     // width of the label "now"
+const kLabelPx = 6;    // distance of labels from the plot
 const kStepMs = 1000, kLargeStepMs = 10000;  // step of a key
 const kRadiusPx = 4;
 const kBeyond = 0.08;  // room beyond limits, where ranges are shaded; share of the values' range
@@ -37,15 +38,14 @@ function amount(point, unit) {
 export class Chart {
   #age = null;     // age of the moment at the pointer, ms; null: the newest values are stated
   #shown = null;   // {series, now, width}
-  #gridKey = "";
 
   // `name`: for screen readers. `layers`: shapes between the grid and the curves.
   constructor(name, ...layers) {
-    this.grid = drawn("svg", { class: "grid", "aria-hidden": true });
+    this.grid = new Grid();
     this.canvas = element("canvas", { role: "slider", tabIndex: 0, "aria-label": texts.chartEmpty(name),
       "aria-valuemin": -kHistoryMs / 1000, "aria-valuemax": 0, "aria-valuenow": 0 });
     this.cursor = drawn("svg", { class: "cursor", "aria-hidden": true });
-    this.plot = element("div", { className: "plot" }, this.grid, ...layers, this.canvas, this.cursor);
+    this.plot = element("div", { className: "plot" }, this.grid.svg, ...layers, this.canvas, this.cursor);
     this.when = element("span", { className: "quiet" });
     this.read = kSeries.map((className) => element("span", { className }));
     this.root = element("div", { className: "chart" },
@@ -91,29 +91,10 @@ export class Chart {
   }
 
   #drawGrid(series) {
-    const { now, width, height } = this.#shown, shapes = [];
-    const line = (ends) => shapes.push(["line", ends]);
-    const label = (x, y, anchor, text, kind = "") =>
-      shapes.push(["text", { x, y, "text-anchor": anchor, class: kind }, text]);
-    series.forEach(({ axis, unit }, n) => {
-      const x = n === 0 ? -6 : width + this.second + 6, anchor = n === 0 ? "end" : "start";
-      for (const { y, text } of axis?.ticks ?? []) {
-        if (n === 0) line({ x1: 0, x2: width, y1: y, y2: y });
-        label(x, y + 4, anchor, text, kSeries[n]);
-      }
-      if (axis) label(x, -8, anchor, unitSymbol(unit), kSeries[n]);
-    });
-    for (const { x, text } of timeTicks(width, kHistoryMs, wallTime(now))) {
-      const at = Math.round(x);
-      line({ x1: at, x2: at, y1: 0, y2: height });
-      if (at < width - kNowPx) label(at, height + 18, "middle", text);
-    }
-    label(width, height + 18, "end", texts.now);
-    const key = JSON.stringify(shapes);
-    if (key === this.#gridKey) return;
-    this.#gridKey = key;
-    this.grid.replaceChildren(...shapes.map(([tag, attributes, ...content]) =>
-      drawn(tag, attributes, ...content)));
+    const { now, width } = this.#shown;
+    const axes = series.map(({ axis, unit }, n) =>
+      ({ axis, unit, kind: kSeries[n], x: n === 0 ? -kLabelPx : width + this.second + kLabelPx }));
+    this.grid.draw(this.#shown, axes, timeTicks(width, kHistoryMs, wallTime(now)), texts.now);
   }
 
   #drawCurves() {
@@ -122,7 +103,7 @@ export class Chart {
     series.forEach(({ points, axis }, n) => {
       if (!axis) return;
       brush.strokeStyle = getComputedStyle(this.read[n]).color;
-      strokeCurve(brush, points, axis, width, now);
+      strokeCurve(brush, points, axis, recentX(width, now));
     });
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve of a figure's last ten minutes on a canvas.
+// The curve of a figure on a canvas: of its last ten minutes, or of any other time.
 import { kHistoryMs } from "../appliance/history.js";
 
 const kGapMs = 2000;  // silence that counts as a gap
@@ -29,13 +29,16 @@ export function freshBrush(canvas) {
   return brush;
 }
 
-// `now` is at the right end.
-export function strokeCurve(brush, points, axis, width, now) {
+// Place of a time in the last ten minutes, px; `now` is at the right end.
+export const recentX = (width, now) => (at) => width * (1 + (at - now) / kHistoryMs);
+
+// `xOf(at)`: place of a time, px. A silence of `gapMs` is a gap.
+export function strokeCurve(brush, points, axis, xOf, gapMs = kGapMs) {
   brush.beginPath();
   let before = null;
   for (const point of points) {
-    const x = width * (1 + (point.at - now) / kHistoryMs);
-    const isDrawn = before !== null && before.low !== null && point.at - before.at < kGapMs;
+    const x = xOf(point.at);
+    const isDrawn = before !== null && before.low !== null && point.at - before.at < gapMs;
     before = point;
     if (point.low === null) continue;
     if (!isDrawn) brush.moveTo(x, axis.y(point.low));

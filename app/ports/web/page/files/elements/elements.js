@@ -19,6 +19,12 @@ export function field(label, properties) {
   return element("label", {}, label, " ", element("input", { required: true, ...properties }));
 }
 
+// Passphrase of a backup, which may be empty, with the hidden name that password managers keep it by.
+export function passphraseFields(label, autocomplete) {
+  return [element("input", { type: "text", hidden: true, readOnly: true, autocomplete: "username", value: "backup" }),
+    field(label, { name: "passphrase", type: "password", required: false, autocomplete })];
+}
+
 // Table with a heading for each of `titles`, in a horizontally scrollable part reachable by keys: {root,
 // body}.
 export function table(titles, label = "") {

@@ -16,6 +16,7 @@ const kPaths = {
   configuration: "M4 6h8M16 6h4M4 12h2M10 12h10M4 18h10M18 18h2M14 4v4M8 10v4M16 16v4",
   people: "M9 4a4 4 0 1 0 0 8a4 4 0 0 0 0-8M2 21c0-4 3-6 7-6s7 2 7 6M16 4a4 4 0 0 1 0 8M18 15c3 1 4 3 4 6",
   password: "M8 11a5 5 0 1 0 0 10a5 5 0 0 0 0-10M12 13l9-9M17 8l3 3M14 11l2 2",
+  device: "M3 5h18v5H3zM3 14h18v5H3zM7 7.5v.5M7 16.5v.5M11 7.5h6M11 16.5h6",
   about: "M12 2a10 10 0 1 0 0 20a10 10 0 0 0 0-20M12 11v6M12 7v.5",
   "layout-1": "M3 4h18v16H3z",
   "layout-2": "M3 4h18v16H3zM12 4v16",

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views in tiles.
+import { shownWidth } from "../appliance/asked_widths.js";
 import { element } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
+import { followSize } from "../elements/resized.js";
 import { texts } from "../texts.js";
 import { Layouts } from "./layouts.js";
 import { SeenTiles } from "./seen_tiles.js";
@@ -37,6 +39,7 @@ export class Live {
       box.addEventListener("change", () => this.#choose(name, box.checked));
       this.choices.append(element("label", {}, box, " ", name));
       this.seen.watch(this.tiles.get(name).root, name);
+      followSize(this.tiles.get(name).canvas, this.onChoice);
     }
     this.#describe();
     this.#arrange();
@@ -52,9 +55,10 @@ export class Live {
     return !this.root.hidden;
   }
 
-  // Names of those that are streamed.
+  // Names and widths of the streamed views.
   get views() {
-    return this.#shownNames().filter((name) => this.seen.has(name));
+    return this.#shownNames().filter((name) => this.seen.has(name))
+      .map((name) => ({ name, width: shownWidth(this.tiles.get(name).canvas) }));
   }
 
   #shownNames() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The displayed picture as a file, with its name and the legend of its colours.
+// A picture as a file, with its name and the legend of its colours.
 import { amountText } from "../elements/amounts.js";
 import { element } from "../elements/elements.js";
 
@@ -21,21 +21,34 @@ function addLegend(context, { camera, range, unit, stops }, y) {
   x = addText(context, amountText(range[1], unit), x + kRamp + kMargin, y);
 }
 
-// `legends`: see Legend.
-export function snapshotOf(name, canvas, legends) {
-  const all = new OffscreenCanvas(canvas.width, canvas.height + (1 + legends.length) * kLine);
+// The view's next picture in full, with its stamp; null: the appliance has none.
+export async function nextPicture(view) {
+  try {
+    const answer = await fetch(`snapshot.jpg?${new URLSearchParams({ view })}`);
+    if (!answer.ok) throw new Error(`status ${answer.status}`);
+    return { picture: await createImageBitmap(await answer.blob()), stamp: answer.headers.get("X-Timestamp") };
+  } catch (error) {
+    console.info(`snapshot of ${view}: ${error.message}`);
+    return null;
+  }
+}
+
+// `picture`: a canvas or bitmap; `legends`: see Legend.
+export function snapshotOf(name, { picture, stamp }, legends) {
+  const all = new OffscreenCanvas(picture.width, picture.height + (1 + legends.length) * kLine);
   const context = all.getContext("2d");
-  context.drawImage(canvas, 0, 0);
+  context.drawImage(picture, 0, 0);
   Object.assign(context, { fillStyle: "#fff", font: "14px system-ui, sans-serif",
     textBaseline: "middle" });
-  const row = (n) => canvas.height + (n + 0.5) * kLine;
-  addText(context, `${name} ${canvas.dataset.stamp}`, kMargin, row(0));
+  const row = (n) => picture.height + (n + 0.5) * kLine;
+  addText(context, `${name} ${stamp}`, kMargin, row(0));
   legends.forEach((source, n) => addLegend(context, source, row(n + 1)));
   return all.convertToBlob({ type: "image/jpeg", quality: kQuality });
 }
 
-export async function saveSnapshot(name, canvas, legends) {
-  const href = URL.createObjectURL(await snapshotOf(name, canvas, legends));
-  element("a", { href, download: `${name}-${canvas.dataset.stamp}.jpg` }).click();
+// `shown`: {picture, stamp}.
+export async function saveSnapshot(name, shown, legends) {
+  const href = URL.createObjectURL(await snapshotOf(name, shown, legends));
+  element("a", { href, download: `${name}-${shown.stamp}.jpg` }).click();
   URL.revokeObjectURL(href);
 }

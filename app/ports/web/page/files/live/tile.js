@@ -9,7 +9,7 @@ import { Legend } from "./legend.js";
 import { Mixer } from "./mixer.js";
 import { PointedView } from "./pointed_view.js";
 import { Pointer } from "./pointer.js";
-import { saveSnapshot } from "./snapshot.js";
+import { nextPicture, saveSnapshot } from "./snapshot.js";
 
 export class Tile {
   #hasPicture = false;
@@ -21,14 +21,13 @@ export class Tile {
     this.mayCommand = mayCommand;
     this.canvas = element("canvas", { tabIndex: 0, role: "application",
       "aria-label": texts.pictureOf(name) });
-    this.canvas.width = 320;
-    this.canvas.height = 180;
     this.pointer = new Pointer(name, this.canvas);
     this.controls = element("div", { className: "controls" });
     const said = element("p", { className: "wrong", role: "alert" });
     this.say = (what) => setText(said, what);
     this.pointed = new PointedView(this.canvas, mayCommand, this.say);
     this.frame = element("div", { className: "frame" }, this.canvas, this.pointer.mark);
+    this.#fit({ width: 320, height: 180 });
     const seen = element("div", { className: "picture" }, this.frame,
       element("div", { className: "over" }, this.pointer.reading, this.controls));
     this.freshness = new Freshness(seen);
@@ -48,9 +47,7 @@ export class Tile {
     this.#turn(false);
     this.lock.hidden = this.back.hidden = true;
     return [button("enlarge", onEnlarge), this.lock, this.back,
-      button("cameras", () => {
-        if (this.#hasPicture) saveSnapshot(this.name, this.canvas, this.legend?.shown ?? []);
-      }),
+      button("cameras", () => this.#save()),
       button("full", () => this.root.requestFullscreen())];
   }
 
@@ -60,8 +57,16 @@ export class Tile {
     this.pointed.lock(!isTurned);
   }
 
+  // The canvas has the view's pixels, in which all coordinates are, also if the picture that is drawn was sent smaller.
+  #fit({ width, height }) {
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
+    this.frame.style.setProperty("--aspect", width / height);
+  }
+
   // The view's entry and the colour maps of /api/v1/views.
   describe(view, maps) {
+    if (!this.#hasPicture) this.#fit(view);
     this.pointed.describe(view);
     this.lock.hidden = this.back.hidden = !this.pointed.mayTurn;
     this.legend = new Legend(view, maps, this.mayCommand, this.say);
@@ -76,18 +81,24 @@ export class Tile {
   }
 
   #draw(picture, { head, received }) {
-    if (this.canvas.width !== picture.width) this.canvas.width = picture.width;
-    if (this.canvas.height !== picture.height) this.canvas.height = picture.height;
-    this.frame.style.setProperty("--aspect", picture.width / picture.height);
-    this.canvas.getContext("2d").drawImage(picture, 0, 0);
-    this.canvas.dataset.number = head.number;
-    this.canvas.dataset.stamp = head.stamp;
+    this.#fit(head);
+    this.canvas.getContext("2d").drawImage(picture, 0, 0, head.width, head.height);
+    Object.assign(this.canvas.dataset, { number: head.number, stamp: head.stamp, sent: picture.width });
     this.#hasPicture = true;
     this.freshness.drew(head.age_ms, received);
     this.pointer.follow();
     this.pointed.follow(head.aim);
     this.mixer?.follow(head.aim.weights);
     this.legend?.follow(head.aim.colours);
+  }
+
+  // The displayed picture, or the next one in full where the displayed one is smaller, unless there is none.
+  async #save() {
+    if (!this.#hasPicture) return;
+    const displayed = { picture: this.canvas, stamp: this.canvas.dataset.stamp };
+    const isFull = Number(this.canvas.dataset.sent) === this.canvas.width;
+    const next = isFull ? null : await nextPicture(this.name);
+    await saveSnapshot(this.name, next ?? displayed, this.legend?.shown ?? []);
   }
 
   // `faults`: of its cameras.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The room as seen from the ball, turned by the user: drawn here, or by the appliance if the browser has no
 // WebGL.
+import { shownWidth } from "../appliance/asked_widths.js";
 import { Framing } from "../appliance/framing.js";
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { followGestures, Gaze } from "./gaze.js";
+import { neededWidth } from "./needed_width.js";
 import { ServerLook } from "./server_look.js";
 import { SpherePainter } from "./sphere_painter.js";
 
@@ -77,8 +79,14 @@ export class Look {
     return !this.root.hidden;
   }
 
-  // Names of the views needed while it is shown.
+  // Views needed while it is shown, in the widths that the gaze needs. A ball is not asked for before its mesh has
+  // arrived, which has the ball's size.
   get views() {
+    if (this.server) return this.#names.map((name) => ({ name, width: shownWidth(this.canvas) }));
+    return this.#names.filter((name) => this.painter?.hasMesh(name)).map((name) =>
+      ({ name, width: neededWidth(this.painter.headOf(name), this.gaze, shownWidth(this.canvas)) }));
+  }
+  get #names() {
     if (this.server) return this.server.views;
     return [this.first.value, this.second.value].filter(Boolean);
   }
@@ -175,15 +183,15 @@ export class Look {
       this.second.replaceChildren(element("option", { value: "" }, texts.lookNone),
         ...spheres.map(option));
       this.second.value = spheres[1] ?? "";
-      this.onChoice();
     }
     this.none.hidden = spheres.length > 0;
-    for (const name of this.views) {
+    for (const name of this.#names) {
       const mesh = await this.#meshes.load(name);
       if (!mesh) continue;
       this.painter.setMesh(name, mesh);
       if (name === this.first.value) this.gaze.begin(mesh.head.facing);
     }
+    this.onChoice();
     this.#redraw();
   }
 
@@ -219,6 +227,7 @@ export class Look {
 
   #tick() {
     if (!this.isShown) return;
+    this.onChoice(); // the gaze or the canvas may need another size
     setText(this.where, texts.lookWhere(this.gaze.yaw, this.gaze.pitch, this.gaze.fov));
     if (!this.#latest) return setText(this.overlay, this.#faults);
     const age = this.#latest.age_ms + performance.now() - this.#latest.received;

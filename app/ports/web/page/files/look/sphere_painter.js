@@ -43,7 +43,8 @@ void main() {
   // Filtering of the appliance (proc/remap): beyond a step of 1.4 px, the mean of four places in the pixel,
   // read from the mip level below the one whose step is allowed.
   vec2 right = dFdx(pixel), below = dFdy(pixel);
-  float step = sqrt(max(dot(right, right), dot(below, below)));
+  float smaller = float(textureSize(picture, 0).x) / size.x; // a picture may be sent in another size
+  float step = smaller * sqrt(max(dot(right, right), dot(below, below)));
   float level = clamp(ceil(log2(step / 1.4)), 0.0, 3.0);
   vec3 shown = vec3(0);
   if (level == 0.0) {
@@ -184,6 +185,10 @@ export class SpherePainter {
   hasMesh(name) {
     return this.#spheres.has(name);
   }
+  headOf(name) {
+    return this.#spheres.get(name).head;
+  }
+  // The picture may be smaller than the mesh states.
   show(name, picture) {
     this.#spheres.get(name)?.show(picture);
   }

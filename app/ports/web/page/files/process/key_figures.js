@@ -3,7 +3,7 @@
 import { raisedAlarms } from "../appliance/alarms.js";
 import { History } from "../appliance/history.js";
 import { figureText, unitSymbol } from "../elements/amounts.js";
-import { freshBrush, pointsOf, strokeCurve, valuesOf } from "../elements/curve.js";
+import { freshBrush, pointsOf, recentX, strokeCurve, valuesOf } from "../elements/curve.js";
 import { element, setText } from "../elements/elements.js";
 import { Keyed } from "../elements/figures.js";
 import { texts } from "../texts.js";
@@ -20,7 +20,7 @@ function drawSpark(canvas, history, now) {
   const y = (value) => height - kEdgePx - (value - least) / span * (height - 2 * kEdgePx);
   brush.strokeStyle = getComputedStyle(canvas).color;
   brush.lineWidth = 1.5;
-  strokeCurve(brush, points, { y }, canvas.clientWidth, now);
+  strokeCurve(brush, points, { y }, recentX(canvas.clientWidth, now));
 }
 
 // One of them; a button that chooses its signal in the chart.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The regions of the recipe over a live view: shown, and by integrators moved, resized, drawn and deleted,
 // corner by corner, with pointer, touch or keys.
+import { shownWidth } from "../appliance/asked_widths.js";
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { commandButton, element, field, setText } from "../elements/elements.js";
 import { Freshness } from "../elements/freshness.js";
+import { followSize } from "../elements/resized.js";
 import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 
@@ -30,7 +32,8 @@ export class RegionEditor {
   #markKey = "";
   #corner = 0;     // index of the last touched corner
   #pictures = new NewestPicture((picture, { head, received }) => {
-    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    // Sent smaller where it is shown smaller; regions are in the view's pixels.
+    this.canvas.getContext("2d").drawImage(picture, 0, 0, this.canvas.width, this.canvas.height);
     this.canvas.dataset.number = head.number;
     this.freshness.drew(head.age_ms, received);
   });
@@ -66,6 +69,7 @@ export class RegionEditor {
       ...(mayChange ? [this.#makeTools(), this.said] : []), this.refused);
     recipe.addEventListener("change", () => this.#refresh());
     new ResizeObserver(() => this.#draw()).observe(this.svg);
+    followSize(this.canvas, onView);
   }
 
   // Folded until regions are to be changed: only then the view has handles.
@@ -87,7 +91,7 @@ export class RegionEditor {
   }
 
   get views() {
-    return this.view.value ? [this.view.value] : [];
+    return this.view.value ? [{ name: this.view.value, width: shownWidth(this.canvas) }] : [];
   }
   get #region() {
     return this.recipe.regions.find(({ name }) => name === this.choice.value);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Texts of the page in German: members and arguments are those of en.js.
+import { device } from "./de_device.js";
 export { words } from "./de_words.js";
 
 const fixed = (value, decimals) => value.toFixed(decimals).replace(".", ",");
@@ -59,6 +60,8 @@ export const texts = {
     moved: (camera) => `${camera} hat sich seit der Ausrichtung bewegt`,
     refused: "Die Konfiguration ist ungültig: die letzte gültige läuft",
     machine: "Der Zustand der Maschine ist nicht bekannt",
+    underVoltage: "Unterspannung am Netzteil: das Gerät kann ausfallen",
+    throttled: "Der Prozessor ist gedrosselt: zu heiß, oder das Netzteil ist zu schwach",
     trial: (seconds) => `Probelauf einer Konfiguration: Rückkehr in ${seconds} s`,
     recipe: ({ number, name }) => (number === 0 ? "" : `Rezept ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
@@ -171,7 +174,9 @@ export const texts = {
       connections === 1 ? "Verbindung" : "Verbindungen"}, ${streams} ${streams === 1 ? "Datenstrom" : "Datenströme"}`,
     log: (errors, warnings) => `${errors} Fehler, ${warnings} ${warnings === 1 ? "Warnung" : "Warnungen"}`,
     people: "Benutzer, Programme mit Token, Nachweis",
+    device: "Supportdatei, Sicherung, Wiederherstellung, Werkseinstellung, Aktualisierung",
   },
+  device,
   control: {
     state: (recipe, isActive) => `Rezept ${recipe}, Prozess ${isActive ? "aktiv" : "nicht aktiv"}`,
     measuring: "Messung",
@@ -263,7 +268,7 @@ export const texts = {
   },
   place: {
     help: "Solange dieser Schritt offen ist, klicken Sie im Bild auf einen Punkt, dessen Ort in der Maschine bekannt " +
-      "ist, geben seine Koordinaten ein und fügen ihn hinzu; sechs Punkte rund um die Kugel sind eine gute Zahl. " +
+      "ist, und drücken die angebotene Ecke, oder geben seine Koordinaten ein und fügen ihn hinzu; sechs Punkte rund um die Kugel sind eine gute Zahl. " +
       "Oder die Maschine hält das Licht ihres Werkzeugs an bekannte Koordinaten: eine SPS sendet sie mit dem Befehl " +
       "mark_point, oder Sie geben sie hier ein. Der Umriss der Kugel muss vorher stimmen.",
     u: "Im Bild: nach rechts, px",
@@ -314,7 +319,8 @@ export const texts = {
     h_fov: "Breite, °",
   },
   recordings: {
-    kinds: { alarm: "Alarm", command: "Auf Befehl", laser_on: "Der Laser ging an", layer: "Die Lage wechselte" },
+    kinds: { alarm: "Alarm", command: "Auf Befehl", laser_on: "Der Laser ging an", layer: "Die Lage wechselte",
+      line: "Eine digitale Leitung" },
     record: "Aufzeichnen, was jetzt geschieht",
     all: "alle",
     filters: { kind: "Ursache", part: "Teil enthält", layer: "Lage", since: (zone) => `Seit (${zone})` },
@@ -339,6 +345,56 @@ export const texts = {
     place: "Bild des Ereignisses",
     noPicture: "Das Bild konnte nicht geladen werden.",
     moment: (number, all, time, seconds) => `${number} von ${all}, ${time}, ${seconds} s vom Auslöser`,
+    offset: (seconds) => `${seconds} s vom Auslöser`,
+    trigger: "Auslöser",
+    chart: (name, low, high) => `${name} während des Ereignisses: ${low} bis ${high}`,
+    chartEmpty: (name) => `${name}: während des Ereignisses nicht gemessen`,
+    noRegions: (why) => `Seine Bereiche lassen sich nicht zeigen: ${why}`,
+    exports: {
+      title: "Exportieren",
+      format: "Datei",
+      formats: { mcap: "Aufzeichnung (MCAP)", csv: "Tabelle der Werte (CSV)", tif: "Bilder (TIFF)", avi: "Video (AVI)",
+        zip: "Alles zusammen (ZIP)" },
+      draws: "Werte einzeichnen",
+      camera: (name) => `Bilder von ${name}`,
+      from: "Ab diesem Bild",
+      to: "Bis zu diesem Bild",
+      whole: "Ganzes Ereignis",
+      range: (from, to) => [from === null ? "" : `ab ${from} s`, to === null ? "" : `bis ${to} s`]
+        .filter(Boolean).join(" ") + " vom Auslöser",
+      make: "Als Datei exportieren",
+      making: (event, mebibytes) => `${event} wird exportiert: ${mebibytes} MiB`,
+      cancelled: "Abgebrochen: es gibt keine Datei.",
+      save: (file) => `${file} speichern`,
+      saved: (file) => `${file} wird gespeichert.`,
+    },
+    replays: {
+      title: "Ein Rezept ausprobieren",
+      help: "Das Ereignis wird mit einem anderen Rezept noch einmal gemessen. Was läuft, ändert sich nicht.",
+      recipe: "Rezept",
+      recorded: "Wie aufgezeichnet",
+      begin: "Noch einmal messen",
+      measuring: (event, done, of) => `${event} wird noch einmal gemessen: ${done} von ${of || "?"} Bildsätzen`,
+      cancelled: "Abgebrochen: es gibt kein Ergebnis.",
+      result: (sets, alarms, signals) => `${sets} Bildsätze wurden noch einmal gemessen. Abweichende Alarme: ` +
+        `${alarms}; abweichende Signale: ${signals}.`,
+      without: (count) => `${count} Bildsätze haben kein Bild.`,
+      unsettled: "Das Ereignis ist kurz: Raten, Mittelwerte und Verzögerungen können abweichen, weil fehlt, was davor " +
+        "war.",
+      then: "Wie aufgezeichnet",
+      now: "Mit dem Rezept",
+      raised: (level, from, to) => `${level}, ${from} s bis ${to} s`,
+      never: "nicht ausgelöst",
+      absent: "nicht überwacht",
+      more: (count) => `und ${count} weitere`,
+      signals: "Abweichende Signale",
+      largest: "Größte Abweichung",
+      first: "Zuerst bei",
+      sets: "Bildsätze",
+      values: (recorded, computed) => `${recorded} → ${computed}`,
+      tried: (amount) => `mit dem Rezept ${amount}`,
+    },
+    noSignals: "Das Ereignis hat keine Messwerte.",
     frame: (camera, number) => `Bild ${number} von ${camera}`,
     removeAsks: (cause) => `Dieses Ereignis endgültig löschen? ${cause}`,
   },

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All texts of the page itself, in English.
+import { device } from "./en_device.js";
+
 export const texts = {
   pages: { live: "Live", look: "Look around", align: "Align", process: "Process",
     recordings: "Recordings", system: "System",
@@ -54,6 +56,8 @@ export const texts = {
     moved: (camera) => `${camera} has moved since its alignment`,
     refused: "The configuration is invalid: the last good one runs",
     machine: "The machine's state is not known",
+    underVoltage: "The supply's voltage is too low: the appliance may stop",
+    throttled: "The processor is slowed down: too hot, or the supply is too weak",
     trial: (seconds) => `Trial of a configuration: reverted in ${seconds} s`,
     recipe: ({ number, name }) => (number === 0 ? "" : `Recipe ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
@@ -165,7 +169,9 @@ export const texts = {
     log: (errors, warnings) => `${errors} ${errors === 1 ? "error" : "errors"}, ` +
       `${warnings} ${warnings === 1 ? "warning" : "warnings"}`,
     people: "users, programs with a token, audit",
+    device: "support file, backup, restore, factory reset, update",
   },
+  device,
   control: {
     state: (recipe, isActive) => `recipe ${recipe}, process ${isActive ? "active" : "not active"}`,
     measuring: "Measuring",
@@ -254,8 +260,8 @@ export const texts = {
       "and turn it by hand where they do not agree.",
   },
   place: {
-    help: "While this step is open, click a point in the picture whose position in the machine is known, type " +
-      "its coordinates and add it; six points all around the ball are a good number. Or let the machine hold " +
+    help: "While this step is open, click a point in the picture whose position in the machine is known, and press " +
+      "the corner that is offered, or type its coordinates and add it; six points all around the ball are a good number. Or let the machine hold " +
       "its tool's light at known coordinates: a PLC sends them by the command mark_point, or type them here. " +
       "The ball's outline must be right before.",
     u: "In the picture: right, px",
@@ -306,7 +312,8 @@ export const texts = {
     h_fov: "Width, °",
   },
   recordings: {
-    kinds: { alarm: "Alarm", command: "By command", laser_on: "The laser went on", layer: "The layer changed" },
+    kinds: { alarm: "Alarm", command: "By command", laser_on: "The laser went on", layer: "The layer changed",
+      line: "A digital line" },
     record: "Record what happens now",
     all: "all",
     filters: { kind: "Cause", part: "Part contains", layer: "Layer", since: (zone) => `Since (${zone})` },
@@ -330,6 +337,55 @@ export const texts = {
     place: "Picture of the event",
     noPicture: "The picture could not be loaded.",
     moment: (number, all, time, seconds) => `${number} of ${all}, ${time}, ${seconds} s from the trigger`,
+    offset: (seconds) => `${seconds} s from the trigger`,
+    trigger: "Trigger",
+    chart: (name, low, high) => `${name} during the event: ${low} to ${high}`,
+    chartEmpty: (name) => `${name}: not measured during the event`,
+    noRegions: (why) => `Its regions cannot be shown: ${why}`,
+    exports: {
+      title: "Export",
+      format: "File",
+      formats: { mcap: "Recording (MCAP)", csv: "Table of the values (CSV)", tif: "Pictures (TIFF)", avi: "Video (AVI)",
+        zip: "All of it (ZIP)" },
+      draws: "Draw the values",
+      camera: (name) => `Pictures of ${name}`,
+      from: "From this picture",
+      to: "Up to this picture",
+      whole: "Whole event",
+      range: (from, to) => [from === null ? "" : `from ${from} s`, to === null ? "" : `up to ${to} s`]
+        .filter(Boolean).join(" ") + " from the trigger",
+      make: "Export as a file",
+      making: (event, mebibytes) => `${event} is being exported: ${mebibytes} MiB`,
+      cancelled: "Cancelled: there is no file.",
+      save: (file) => `Save ${file}`,
+      saved: (file) => `${file} is being saved.`,
+    },
+    replays: {
+      title: "Try a recipe",
+      help: "The event is measured again with another recipe. Nothing that runs changes.",
+      recipe: "Recipe",
+      recorded: "As recorded",
+      begin: "Measure it again",
+      measuring: (event, done, of) => `${event} is being measured again: ${done} of ${of || "?"} frame sets`,
+      cancelled: "Cancelled: there is no result.",
+      result: (sets, alarms, signals) => `${sets} frame sets were measured again. Alarms that differ: ${alarms}; ` +
+        `signals that differ: ${signals}.`,
+      without: (count) => `${count} frame sets have no picture.`,
+      unsettled: "The event is short: rates, means and delays may differ because what was before it is missing.",
+      then: "As recorded",
+      now: "With the recipe",
+      raised: (level, from, to) => `${level}, ${from} s to ${to} s`,
+      never: "not raised",
+      absent: "not watched",
+      more: (count) => `and ${count} more`,
+      signals: "Signals that differ",
+      largest: "Largest difference",
+      first: "First at",
+      sets: "Frame sets",
+      values: (recorded, computed) => `${recorded} → ${computed}`,
+      tried: (amount) => `with the recipe ${amount}`,
+    },
+    noSignals: "The event has no measurements.",
     frame: (camera, number) => `Picture ${number} of ${camera}`,
     removeAsks: (cause) => `Delete this event for ever? ${cause}`,
   },

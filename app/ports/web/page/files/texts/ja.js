@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Texts of the page in Japanese: members and arguments are those of en.js.
+import { device } from "./ja_device.js";
 export { words } from "./ja_words.js";
 
 export const texts = {
@@ -56,6 +57,8 @@ export const texts = {
     moved: (camera) => `${camera} は位置合わせの後に動きました`,
     refused: "設定が無効です。最後の有効な設定で動作しています",
     machine: "機械の状態が分かりません",
+    underVoltage: "電源の電圧が低すぎます。装置が停止するおそれがあります",
+    throttled: "プロセッサの速度が制限されています。温度が高すぎるか、電源の容量が足りません",
     trial: (seconds) => `設定を試行中: ${seconds} 秒後に元に戻ります`,
     recipe: ({ number, name }) => (number === 0 ? "" : `レシピ ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
@@ -163,7 +166,9 @@ export const texts = {
     connected: (connections, streams) => `ウェブ: 接続 ${connections}、ストリーム ${streams}`,
     log: (errors, warnings) => `エラー ${errors}、警告 ${warnings}`,
     people: "ユーザー、トークン、監査記録",
+    device: "サポートファイル、バックアップ、復元、初期化、更新",
   },
+  device,
   control: {
     state: (recipe, isActive) => `レシピ ${recipe}、プロセスは${isActive ? "稼働中" : "停止中"}`,
     measuring: "計測",
@@ -250,7 +255,7 @@ export const texts = {
     help: "両方の画像の内容から計算します。一つのビューに両方を重ねて確認し、一致しないところは手で回してください。",
   },
   place: {
-    help: "この手順を開いている間に、機械内の位置が分かっている点を画像でクリックし、座標を入力して追加します。球の周囲に" +
+    help: "この手順を開いている間に、機械内の位置が分かっている点を画像でクリックし、表示された角を押すか、座標を入力して追加します。球の周囲に" +
       "6 点が目安です。または、工具の光を既知の座標に保持します。座標は PLC がコマンド mark_point で送るか、ここに入力します。" +
       "先に球の輪郭を正しく合わせてください。",
     u: "画像内: 右へ、px",
@@ -300,7 +305,8 @@ export const texts = {
     h_fov: "幅、°",
   },
   recordings: {
-    kinds: { alarm: "アラーム", command: "コマンドによる", laser_on: "レーザーがオンになった", layer: "層が変わった" },
+    kinds: { alarm: "アラーム", command: "コマンドによる", laser_on: "レーザーがオンになった", layer: "層が変わった",
+      line: "デジタル入力" },
     record: "今の状況を記録",
     all: "すべて",
     filters: { kind: "原因", part: "部品名に含む", layer: "層", since: (zone) => `開始日時 (${zone})` },
@@ -323,6 +329,54 @@ export const texts = {
     place: "イベントの画像",
     noPicture: "画像を読み込めませんでした。",
     moment: (number, all, time, seconds) => `${all} 枚中 ${number} 枚目、${time}、トリガーから ${seconds} 秒`,
+    offset: (seconds) => `トリガーから ${seconds} 秒`,
+    trigger: "トリガー",
+    chart: (name, low, high) => `${name}、イベント中: ${low} ～ ${high}`,
+    chartEmpty: (name) => `${name}: イベント中は計測されていません`,
+    noRegions: (why) => `領域を表示できません: ${why}`,
+    exports: {
+      title: "エクスポート",
+      format: "ファイル",
+      formats: { mcap: "記録 (MCAP)", csv: "値の表 (CSV)", tif: "画像 (TIFF)", avi: "動画 (AVI)", zip: "すべて (ZIP)" },
+      draws: "値を描き込む",
+      camera: (name) => `${name} の画像`,
+      from: "この画像から",
+      to: "この画像まで",
+      whole: "イベント全体",
+      range: (from, to) => "トリガーから " + [from === null ? "" : `${from} 秒以降`, to === null ? "" : `${to} 秒まで`]
+        .filter(Boolean).join("、"),
+      make: "ファイルにエクスポート",
+      making: (event, mebibytes) => `${event} をエクスポート中: ${mebibytes} MiB`,
+      cancelled: "中止しました。ファイルはありません。",
+      save: (file) => `${file} を保存`,
+      saved: (file) => `${file} を保存しています。`,
+    },
+    replays: {
+      title: "レシピを試す",
+      help: "別のレシピでイベントを計測し直します。運転中の設定は変わりません。",
+      recipe: "レシピ",
+      recorded: "記録時のまま",
+      begin: "計測し直す",
+      measuring: (event, done, of) => `${event} を計測し直しています: ${of || "?"} 組中 ${done} 組`,
+      cancelled: "中止しました。結果はありません。",
+      result: (sets, alarms, signals) => `${sets} 組の画像を計測し直しました。異なるアラーム: ${alarms} 件、` +
+        `異なる信号: ${signals} 件。`,
+      without: (count) => `${count} 組には画像がありません。`,
+      unsettled: "イベントが短いため、それ以前の値がなく、変化率・平均・遅延が異なることがあります。",
+      then: "記録時",
+      now: "このレシピ",
+      raised: (level, from, to) => `${level}、${from} 秒 ～ ${to} 秒`,
+      never: "発生なし",
+      absent: "監視なし",
+      more: (count) => `ほか ${count} 件`,
+      signals: "異なる信号",
+      largest: "最大の差",
+      first: "最初の時点",
+      sets: "画像の組数",
+      values: (recorded, computed) => `${recorded} → ${computed}`,
+      tried: (amount) => `このレシピでは ${amount}`,
+    },
+    noSignals: "イベントに計測値がありません。",
     frame: (camera, number) => `${camera} の画像 ${number}`,
     removeAsks: (cause) => `このイベントを完全に削除しますか? ${cause}`,
   },
