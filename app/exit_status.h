@@ -7,9 +7,16 @@
 namespace orbwatch::app {
 
 /// Exit statuses of `orbwatch` and `orbwatchd`.
-enum class ExitStatus { Done = 0, Failed = 1, WrongUsage = 2 };
+enum class ExitStatus {
+  Done = 0,
+  Failed = 1,
+  WrongUsage = 2,
+  StopLine = 3,
+  PowerOff = 4,
+  RestartDevice = 5
+};
 
-/// Meaning of a status, for help and manual pages.
+/// Meaning of a status, for help and manual pages. Empty: the program does not have it.
 struct ExitStatusInfo {
   ExitStatus status;
   std::string_view of_orbwatch;
@@ -26,6 +33,13 @@ inline constexpr std::array kExitStatuses{
                    "A file is wrong, or something is missing that it cannot run without."},
     ExitStatusInfo{ExitStatus::WrongUsage, "The options or arguments are wrong; nothing was done.",
                    "The options or arguments are wrong; nothing was done."},
+    ExitStatusInfo{ExitStatus::StopLine, "",
+                   "A line of use stop asked for it; the service is not started again."},
+    ExitStatusInfo{ExitStatus::PowerOff, "",
+                   "As 3, and the line has power_off: the service powers the machine off."},
+    ExitStatusInfo{ExitStatus::RestartDevice, "",
+                   "The page asked for a restart that tries an installed update; the service of an "
+                   "image restarts the computer."},
 };
 
 }  // namespace orbwatch::app

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/health/disk_writes.h"
 #include "app/health/system_file.h"
 #include "hal/synchronised_clock.h"
 
@@ -54,16 +55,10 @@ double processor_frequency(const fs::path& sys) {
   return fastest;
 }
 
-/// Value of a line "key:   123 kB" in a file of lines, in MiB.
-double memory_line(const fs::path& file, std::string_view key) {
-  std::istringstream lines(read_system_file(file).value_or(""));
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with(key) || !line.ends_with(" kB")) continue;
-    const std::string_view number = std::string_view(line).substr(key.size());
-    const auto kibibytes = to_integer(number.substr(0, number.size() - 3));
-    return kibibytes ? static_cast<double>(*kibibytes) / 1024 : kNotValid;
-  }
-  return kNotValid;
+/// Value of a line of memory_line(), MiB.
+double memory_line_mib(const fs::path& file, std::string_view key) {
+  const auto bytes = memory_line(file, key);
+  return bytes ? static_cast<double>(*bytes) / (1 << 20) : kNotValid;
 }
 
 double open_descriptors(const fs::path& proc) {
@@ -95,11 +90,12 @@ Health BoardHealth::read() {
   if (const auto bits = throttling_.read()) health.throttling = *bits;
   health.processor_load = processor_load();
   health.processor_frequency = processor_frequency(sources_.sys);
-  health.memory_available = memory_line(sources_.proc / "meminfo", "MemAvailable:");
+  health.memory_available = memory_line_mib(sources_.proc / "meminfo", "MemAvailable:");
   note_disk(sources_.disk, health);
+  health.disk_written_per_day = disk_written_per_day(sources_.sys, sources_.proc, sources_.disk);
   timex clock{};
   note_clock(::adjtimex(&clock), clock, health);
-  health.resident_memory = memory_line(sources_.proc / "self/status", "VmRSS:");
+  health.resident_memory = memory_line_mib(sources_.proc / "self/status", "VmRSS:");
   health.open_descriptors = open_descriptors(sources_.proc);
   for (const HealthField& figure : kHealthFigures) {
     double& value = health.*figure.get;

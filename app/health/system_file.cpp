@@ -6,6 +6,8 @@
 
 #include <cerrno>
 #include <charconv>
+#include <limits>
+#include <sstream>
 #include <system_error>
 
 #include "hal/thread/file_descriptor.h"
@@ -44,6 +46,19 @@ std::optional<std::int64_t> to_integer(std::string_view text, int base) {
 std::optional<std::int64_t> read_integer(const fs::path& file, int base) {
   const auto text = read_system_file(file);
   return text ? to_integer(*text, base) : std::nullopt;
+}
+
+std::optional<std::uint64_t> memory_line(const fs::path& file, std::string_view key) {
+  std::istringstream lines(read_system_file(file).value_or(""));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(key) || !line.ends_with(" kB")) continue;
+    const std::string_view number = std::string_view(line).substr(key.size());
+    const auto kibibytes = to_integer(number.substr(0, number.size() - 3));
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 1024;
+    if (!kibibytes || *kibibytes < 0 || *kibibytes > kMost) return std::nullopt;
+    return static_cast<std::uint64_t>(*kibibytes) * 1024;
+  }
+  return std::nullopt;
 }
 
 std::vector<fs::path> entries(const fs::path& folder) {

@@ -23,6 +23,9 @@ std::optional<std::int64_t> to_integer(std::string_view text, int base = 10);
 /// Reads the number in a file. Reentrant.
 std::optional<std::int64_t> read_integer(const std::filesystem::path& file, int base = 10);
 
+/// Value of a line "key:   123 kB" in a file of lines, bytes; nullopt: no such line. Reentrant.
+std::optional<std::uint64_t> memory_line(const std::filesystem::path& file, std::string_view key);
+
 /// The entries of a folder, in any order; empty when it cannot be listed. Reentrant.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder);
 

@@ -20,16 +20,19 @@ struct MachineSettings {
   optics::Vec3 tool_axis{0, 0, -1};        ///< at a = b = c = 0, controller's frame
 };
 
-inline constexpr std::array kMachineSources{
-    Word{"none", MachineSource::None}, Word{"modbus", MachineSource::Modbus},
-    Word{"dds", MachineSource::Dds}, Word{"http", MachineSource::Http},
-    Word{"simulation", MachineSource::Simulation}};
+inline constexpr std::array kMachineSources{Word{"none", MachineSource::None},
+                                            Word{"modbus", MachineSource::Modbus},
+                                            Word{"dds", MachineSource::Dds},
+                                            Word{"http", MachineSource::Http},
+                                            Word{"simulation", MachineSource::Simulation},
+                                            Word{"recording", MachineSource::Recording}};
 
 template <class Visitor>
 void visit(Visitor& v, MachineSettings& machine) {
   v.optional("source", machine.source, kMachineSources,
              "Interface by which the controller sends its states: part, layer, tool position, "
-             "laser; simulation: the simulated machine sends them");
+             "laser; simulation: the simulated machine sends them; recording: those that were "
+             "recorded with the frame sets that the cameras replay");
   v.optional("delay_ms", machine.delay, Milliseconds{Range::between(0, 1000)},
              "Age of a state on its arrival, ms: from the moment that it describes to the arrival "
              "of its message; with the controller's clock, of the fastest message");

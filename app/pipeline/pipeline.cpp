@@ -396,6 +396,7 @@ void Pipeline::report_process_inputs() {
     const std::optional<bool> active = plan_.process_inputs[i]->active();
     status_.process_inputs |= (active.value_or(false) ? 1U : 0U) << i;
     status_.process_inputs_known |= (active ? 1U : 0U) << i;
+    status_.process_input_edges[i] = plan_.process_inputs[i]->edges();
   }
 }
 

@@ -60,7 +60,8 @@ struct PipelinePlan : PipelineSettings {
   CameraSet absent;                        ///< cameras to be admitted when they connect
   std::vector<std::shared_ptr<hal::FrameTrigger>>
       triggers;  ///< trigger of each camera; null or none: runs freely
-  std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
+  /// At most kMaxProcessInputs.
+  std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;
   std::vector<ViewPlan> views;  ///< display views, by index; those of the recipes come after them
   std::vector<std::unique_ptr<CompiledRecipe>> recipes;  ///< at most kMaxRecipes
   std::vector<remap::ColourMap::Table> colour_maps;      ///< tables by SourceColours::map, all maps

@@ -11,6 +11,10 @@
 /// machines on one board have a folder each, which records its configuration file.
 namespace orbwatch::app {
 
+/// File of a state folder with the files of a restore that are put in place before orbwatchd starts
+/// the next time.
+inline constexpr const char* kPendingRestore = "restore-pending.tar";
+
 /// First folder of systemd's STATE_DIRECTORY (systemd.exec(5)); nullopt: not set or empty. Not
 /// while the environment is changed.
 std::optional<std::filesystem::path> state_directory();

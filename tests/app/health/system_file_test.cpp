@@ -55,6 +55,18 @@ TEST(Integer, IsTheWholeText) {
   EXPECT_EQ(to_integer(std::string_view("4\0002", 3)), std::nullopt);
 }
 
+TEST(MemoryLine, IsInBytes) {
+  MadeUpTree tree;
+  tree.write("meminfo",
+             "MemTotal:  2048 kB\nMemFree: 3 MB\nBuffers: -1 kB\nSwap: 9007199254740992 kB\n"
+             "Mapped: some kB\n");
+  EXPECT_EQ(memory_line(tree / "meminfo", "MemTotal:"), 2048U * 1024);
+  for (const char* key : {"MemFree:", "Buffers:", "Swap:", "Mapped:", "Cached:"}) {
+    EXPECT_EQ(memory_line(tree / "meminfo", key), std::nullopt) << key;
+  }
+  EXPECT_EQ(memory_line(tree / "missing", "MemTotal:"), std::nullopt);
+}
+
 TEST(Entries, AreThoseThatBeginSo) {
   MadeUpTree tree;
   tree.write("a/zone0", "");

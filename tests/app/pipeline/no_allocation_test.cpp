@@ -124,8 +124,9 @@ TEST(FramePath, KeepsPicturesForEventsWithoutAllocating) {
   recorder::EventSettings events;
   events.ring_mib = 1;
   events.longest = std::chrono::seconds(20);
+  events.on_lines = {"button"};
   const RecorderSettings settings{.folder = "unused", .events = events};
-  const StatusNames names;
+  const StatusNames names{{}, {}, {}, {"button"}};
   const RecordedTexts texts;
   recorder::RecorderCounters counters;
   recorder::EventRecorder recorded(settings, RecordedMachine::cameras(), names, texts, counters);
@@ -135,6 +136,8 @@ TEST(FramePath, KeepsPicturesForEventsWithoutAllocating) {
     sets[n].stamp = RecordedMachine::at(100 * n);  // a second apart
     sets[n].frames[0] = orbwatch::tests::painted_frame(n, 0, sets[n].stamp, RecordedMachine::kWidth,
                                                        RecordedMachine::kHeight);
+    sets[n].frames[1] = orbwatch::tests::jpeg_frame(n, sets[n].stamp, RecordedMachine::kWidth,
+                                                    RecordedMachine::kHeight);
   }
   Status status;
   AlarmNotice notice;
@@ -144,6 +147,7 @@ TEST(FramePath, KeepsPicturesForEventsWithoutAllocating) {
     notice.stamp = status.stamp = set.stamp;
     notice.frame_set = status.frame_set = set.id;
     if (set.id % 10 == 0) recorded.accept_event(notice);
+    status.process_input_edges[0] += set.id % 3;
     recorded.request();
     recorded.accept(status);
   }

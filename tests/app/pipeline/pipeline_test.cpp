@@ -404,7 +404,10 @@ TEST_F(PipelineTest, ReportsWhichProcessInputsAreActive) {
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b11; });
   door->set(false);
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b10; });
-  EXPECT_EQ(sink.wait_for([](const Status&) { return true; }).process_inputs_known, 0b11U);
+  const Status both = sink.wait_for([](const Status&) { return true; });
+  EXPECT_EQ(both.process_inputs_known, 0b11U);
+  EXPECT_EQ(both.process_input_edges[0], 0U);
+  EXPECT_EQ(both.process_input_edges[1], 1U);
   laser->set({});
   sink.wait_for(
       [](const Status& s) { return s.process_inputs == 0 && s.process_inputs_known == 0b01; });

@@ -171,6 +171,8 @@ std::vector<Bit> fault_bits() {
        [](I image) { return image.live.status.health.commands_recorded == 0; }},
       {"machine_unknown", "The machine's states are missing or stale: see its register quality",
        [](I image) { return is_fault(image.live.status.machine.quality); }},
+      {"under_voltage", "The voltage of the board's supply is too low: it may stop at any moment",
+       [](I image) { return has_under_voltage(image.live.status.health); }},
   };
   bits.resize(kFirstCameraFaultBit);
   append(bits, kMaxCameras, "camera_#", "Camera # has a fault: see its fault register",

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/model/csv_text.h"
 #include "app/ports/modbus/map/bits.h"
 #include "app/ports/modbus/map/encoding.h"
 #include "app/ports/modbus/map/register_map.h"
@@ -29,14 +30,6 @@ std::string decimal(double number) {
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed).ptr;
   return {text.data(), end};
-}
-
-/// A field of RFC 4180.
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-  return quoted + "\"";
 }
 
 std::string joined(std::span<const std::string> cells, std::string_view separator) {
