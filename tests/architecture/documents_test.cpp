@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/architecture/markdown_files.h"
 
 /// What the documents say about the tree must be there.
 namespace orbwatch::tests {
@@ -23,21 +26,56 @@ std::string read(const fs::path& file) {
 }
 
 TEST(Documents, LinksLeadToFiles) {
-  const fs::path root = ORBWATCH_SOURCE_DIR;
   static const std::regex kLink(R"rx(\]\(([^)#:]+)\)|src="([^":]+)")rx");
   int links = 0;
-  for (auto it = fs::recursive_directory_iterator(root); it != fs::recursive_directory_iterator();
-       ++it) {
-    const std::string name = it->path().filename().string();
-    if (it->is_directory() && (name == "build" || name == "out" || name.starts_with("."))) {
-      it.disable_recursion_pending();
-      continue;
-    }
-    if (it->path().extension() != ".md") continue;
-    const std::string text = read(it->path());
+  for (const fs::path& document : markdown_files()) {
+    const std::string text = read(document);
     for (std::sregex_iterator link(text.begin(), text.end(), kLink), end; link != end; ++link) {
       const std::string target = (*link)[1].matched ? (*link)[1] : (*link)[2];
-      EXPECT_TRUE(fs::exists(it->path().parent_path() / target)) << it->path() << " -> " << target;
+      EXPECT_TRUE(fs::exists(document.parent_path() / target)) << document << " -> " << target;
+      ++links;
+    }
+  }
+  EXPECT_GT(links, 10);
+}
+
+/// Anchor that forges make of a heading: "1. The page" -> "1-the-page".
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const unsigned char c : heading) {
+    if (c >= 0x80 || std::isalnum(c) || c == '-' || c == '_') {
+      anchor += static_cast<char>(c < 0x80 ? std::tolower(c) : c);
+    } else if (c == ' ') {
+      anchor += '-';
+    }
+  }
+  return anchor;
+}
+
+std::vector<std::string> anchors_of(const std::string& text) {
+  std::vector<std::string> anchors;
+  std::istringstream in(text);
+  bool is_code = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) is_code = !is_code;
+    if (!is_code && line.starts_with('#')) {
+      anchors.push_back(anchor_of(line.substr(line.find(' ') + 1)));
+    }
+  }
+  return anchors;
+}
+
+TEST(Documents, LinksLeadToHeadings) {
+  static const std::regex kLink(R"rx(\]\(([^)#: ]*)#([^)]+)\))rx");
+  int links = 0;
+  for (const fs::path& document : markdown_files()) {
+    const std::string text = read(document);
+    for (std::sregex_iterator link(text.begin(), text.end(), kLink), end; link != end; ++link) {
+      const std::string target = (*link)[1];
+      const auto anchors =
+          anchors_of(target.empty() ? text : read(document.parent_path() / target));
+      EXPECT_GT(std::ranges::count(anchors, (*link)[2].str()), 0)
+          << document << " -> " << target << "#" << (*link)[2];
       ++links;
     }
   }

@@ -84,7 +84,7 @@ choose() {
 
 # Files that every scenario depends on.
 everything=("$here" platform/build-deb platform/debian platform/install_packages tests/support/cached
-            tests/support/checks.sh tests/support/debian_apt tests/support/debian_root
+            tests/support/checks.sh tests/support/debian_apt tests/support/debian_root tests/support/enter_root
             tests/support/modbus.sh tests/support/unpack_package)
 
 # choose_changed BASE SEED RUN...: sets chosen to those with changes since BASE, and two of the

@@ -82,6 +82,10 @@ constexpr std::array kNotRun{
     NotRun{"sudo orbwatch restore backup.tar.zst --check", "as the one before"},
     NotRun{"sudo orbwatch restore backup.tar.zst --camera thermal=SN-4711", "as the one before"},
     NotRun{"sudo orbwatch reset --factory", "as the one before"},
+    NotRun{"sudo install -D -m 644 /usr/share/orbwatch/journald.conf "
+           "/etc/systemd/journald.conf.d/orbwatch.conf",
+           "the journal of this computer"},
+    NotRun{"sudo systemctl restart systemd-journald", "as the one before"},
     NotRun{"sudo systemctl stop orbwatch", "the service of this computer"},
     NotRun{"sudo systemctl start orbwatch", "the service of this computer"},
 };

@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CODE = {".h", ".cpp", ".js"}
 SCRIPTS = {".py", ".sh", ".cmake", ".txt"}
 
+TRANSLATION = re.compile(r"\.[a-z]{2}\.md$")  # manuals in other languages
 CPP, SCRIPT = r"//[/!]?<?", r"#(?!!)"  # patterns that begin a comment
 
 LOOSE = re.compile(r"(of|what|whether|how|where|by|with|as|who|whose|whom)\b", re.IGNORECASE)
@@ -107,7 +108,7 @@ def sources(folders):
     for name in filter(None, listed.split("\0")):
         path = ROOT / name
         is_prose = path.is_file() and (path.suffix in CODE | {".md"} or is_script(path))
-        if is_prose and path.stem not in {"prose", "prose_test"}:
+        if is_prose and path.stem not in {"prose", "prose_test"} and not TRANSLATION.search(name):
             yield name
 
 

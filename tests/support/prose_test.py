@@ -54,6 +54,10 @@ class Figures(unittest.TestCase):
             self.assertEqual(prose.main([]), 0)
         self.assertIn("beginnings: ", printed.getvalue())
 
+    def test_translations_are_left_out(self):
+        manuals = {name for name in prose.sources(["platform"]) if "INSTALL" in name}
+        self.assertEqual(manuals, {"platform/INSTALL.md"})
+
     def test_a_limit_that_is_passed_fails(self):
         text = prose.Text("a:1", "Of the queue.", True)
         self.assertGreater(prose.share(prose.FIGURES[0], [text]), prose.FIGURES[0].limit)
