@@ -22,7 +22,7 @@ compile() {
   tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
 }
 
-# The sanitizers' preset of programs whose own folders are unchanged, drawn by HEAD's hash.
+# The sanitizers' preset of this commit, drawn by HEAD's hash.
 drawn_preset() {
   local presets=(asan-ubsan tsan) hash
   hash=$(git rev-parse HEAD)
@@ -36,28 +36,37 @@ by_turns() {
   while read -r name; do echo "$(sha256sum <<<"$head $name") $name"; done | sort | sed 's/.* //'
 }
 
-# Most programs that run when the folders of more have changed: with all of them a run would exceed its limit.
-most_own=6
+# Most objects that CI compiles for a sanitizer; all are about twice as many, 1600 CPU s (2 cores, 2026).
+most_objects=90
+
+# objects_of FOLDER NAME...: prints the number of objects that the programs consist of.
+objects_of() { ninja -C "$1" -t commands "${@:2}" | grep -c -- ' -c '; }
+
+# affordable FOLDER: of names in order of their importance, those that together stay within most_objects,
+# and always the first.
+affordable() {
+  local name taken=()
+  while read -r name; do
+    ((${#taken[@]} == 0)) || (($(objects_of "$1" "${taken[@]}" "$name") <= most_objects)) || continue
+    taken+=("$name")
+    echo "$name"
+  done
+}
 
 # choose_programs PRESET: writes the test programs and fuzz targets of a configured preset that are to run, and
 # the others, to files `due` and `not_due` in its folder.
 choose_programs() {
-  local folder=build/$1 drawn=0 fate name
+  local folder=build/$1 fate
   tests/support/due_programs.py "$folder" "${ORBWATCH_SINCE:-$(last_whole sanitizers)}" >"$folder/programs" ||
     return
-  [[ $1 != "$(drawn_preset)" ]] || drawn=1
-  if ((!whole)) && [[ -z ${ORBWATCH_SINCE:-} ]] && (($(grep -c '^own ' "$folder/programs") > most_own)); then
-    sed -n 's/^own //p' "$folder/programs" | by_turns | head -n "$((drawn * most_own))" >"$folder/due"
-    sed 's/.* //' "$folder/programs" | grep -vxFf "$folder/due" >"$folder/not_due"
-    return
-  fi
-  while read -r fate name; do
-    if ((whole)) || [[ $fate == own ]] || { ((drawn)) && { [[ $fate == due ]] || draws "$name"; }; }; then
-      echo "$name" >&3
-    else
-      echo "$name" >&4
-    fi
-  done <"$folder/programs" 3>"$folder/due" 4>"$folder/not_due"
+  if ((whole)); then
+    sed 's/.* //' "$folder/programs"
+  elif [[ -n ${ORBWATCH_SINCE:-} ]]; then
+    sed -nE 's/^(own|due) //p' "$folder/programs"
+  elif [[ $1 == "$(drawn_preset)" ]]; then
+    for fate in own due same; do sed -n "s/^$fate //p" "$folder/programs" | by_turns; done | affordable "$folder"
+  fi >"$folder/due"
+  sed 's/.* //' "$folder/programs" | { grep -vxFf "$folder/due" || true; } >"$folder/not_due"
 }
 
 # build_due PRESET: configures it and compiles the programs that are due.
