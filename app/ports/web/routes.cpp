@@ -244,8 +244,9 @@ std::vector<Route> recording_routes(const RouteOwners& of) {
   return {
       get<&RecordingRoutes::list, RecordingsAnswer>(
           "/api/v1/recordings", Viewer, of.recordings,
-          "Returns the recorder's events, each with the cameras' pictures from before and after a "
-          "trigger. The ETag changes with the list"),
+          "Returns the recorder's newest events, or those that match, each with the cameras' "
+          "pictures "
+          "from before and after a trigger. The ETag changes with the answer"),
       get<&RecordingRoutes::picture>("/api/v1/recordings/trigger.jpg", Viewer, of.recordings,
                                      "Returns the picture of an event's trigger", kJpeg),
       get<&RecordingRoutes::frames, FramesAnswer>(

@@ -89,10 +89,11 @@ class ExportSpool::Room {
   hal::TimePoint next_{};
 };
 
-ExportSpool::ExportSpool(const RecorderSettings& settings)
+ExportSpool::ExportSpool(const RecorderSettings& settings, ExportTimes times)
     : folder_(settings.folder / "exports"),
       reserve_(static_cast<std::uint64_t>(settings.reserve_mib) * kSpoolMebibyte),
-      events_(settings.folder) {}
+      events_(settings.folder),
+      times_(times) {}
 
 void ExportSpool::start() {
   if (thread_.is_running()) return;
@@ -126,13 +127,14 @@ void ExportSpool::run() {
 
 hal::TimePoint ExportSpool::next_wake() const {
   const std::lock_guard lock(mutex_);
-  return status_.state == ExportState::Ready ? made_ + kKept : hal::Clock::now() + kKept;
+  return status_.state == ExportState::Ready ? made_ + times_.kept
+                                             : hal::Clock::now() + times_.kept;
 }
 
 void ExportSpool::remove_old() {
   {
     const std::lock_guard lock(mutex_);
-    if (status_.state != ExportState::Ready || hal::Clock::now() < made_ + kKept) return;
+    if (status_.state != ExportState::Ready || hal::Clock::now() < made_ + times_.kept) return;
     status_.state = ExportState::None;
   }
   std::error_code none;
@@ -166,7 +168,7 @@ Result<> ExportSpool::check_free(const ExportRequest& request) const {
     return fail(whose + " is being made; wait for it, or cancel it");
   }
   const bool is_owned = status_.state == ExportState::Ready && status_.user != request.user &&
-                        hal::Clock::now() < made_ + kOwned;
+                        hal::Clock::now() < made_ + times_.owned;
   if (is_owned) return fail(whose + " waits for its download; try again in a minute");
   return {};
 }

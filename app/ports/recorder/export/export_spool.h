@@ -17,17 +17,19 @@
 
 namespace orbwatch::app::recorder {
 
+/// Times of a file from when it was made.
+struct ExportTimes {
+  std::chrono::nanoseconds kept = std::chrono::minutes(10);  ///< until it is removed
+  std::chrono::nanoseconds owned = std::chrono::minutes(1);  ///< until others' exports replace it
+};
+
 /// Exports in the folder `exports` of recordings, which it owns: emptied at its start and its end.
-/// There is one file at a time, removed kKept after it was made. An export takes at most half of
+/// There is one file at a time. An export takes at most half of
 /// the space above the recorder's reserve, so that however many readers hold removed files open,
 /// none takes the reserve, for which recordings would be deleted.
 class ExportSpool final : public RecordedExports {
  public:
-  static constexpr std::chrono::minutes kKept{10};
-  /// Time for which a finished file is not replaced by another user's export.
-  static constexpr std::chrono::minutes kOwned{1};
-
-  explicit ExportSpool(const RecorderSettings& settings);
+  explicit ExportSpool(const RecorderSettings& settings, ExportTimes times = {});
   ~ExportSpool() override { ExportSpool::stop(); }
 
   void start() override;
@@ -64,6 +66,7 @@ class ExportSpool final : public RecordedExports {
   const std::filesystem::path folder_;
   const std::uint64_t reserve_;  ///< bytes
   const EventFolder events_;
+  const ExportTimes times_;
   mutable std::mutex mutex_;  ///< guards the members below, but not the thread
   bool is_started_ = false;
   ExportStatus status_;

@@ -7,6 +7,7 @@
 
 #include "app/model/sink/recorded_events.h"
 #include "app/model/sink/recorded_regions.h"
+#include "app/model/status/utc_text.h"
 #include "proc/settings/settings.h"
 
 /// Records of the recorder's events.
@@ -34,13 +35,43 @@ void visit(Visitor& v, RecordedEvent& event) {
   v.required("is_interrupted", event.is_interrupted, "It was not recorded to its end");
 }
 
+/// Events to list; an empty text or an unset layer is any.
+struct RecordingsQuery {
+  std::string trigger{}, part{};
+  std::optional<double> layer{};
+  std::string from{}, to{};  ///< UTC; the moments belong to the range
+  std::string before{};      ///< name of an event that is newer than those
+  int limit = 100;
+};
+template <class Visitor>
+void visit(Visitor& v, RecordingsQuery& query) {
+  v.optional("trigger", query.trigger, "Kind of the trigger; without it, all");
+  v.optional("part", query.part, "Text that the name of the part contains; A to Z match a to z");
+  v.optional("layer", query.layer, "Layer of the part");
+  v.optional("from", query.from, "Earliest time of the trigger, UTC: 2026-11-28T09:22:00.125Z");
+  v.optional("to", query.to, "Latest time of the trigger, UTC");
+  v.optional("before", query.before, "Name of an event: only older ones");
+  v.optional("limit", query.limit, Range::between(1, 1000), "Most events in an answer");
+  for (const std::string* moment : {&query.from, &query.to}) {
+    v.require(moment->empty() || parse_utc_text(*moment).has_value(),
+              "from and to must be UTC such as 2026-11-28T09:22:00.125Z");
+  }
+}
+
 struct RecordingsAnswer {
   std::vector<RecordedEvent> events;
+  std::uint64_t total = 0;
+  std::uint64_t matching = 0;
+  bool has_older = false;
   std::optional<std::string> missing;
 };
 template <class Visitor>
 void visit(Visitor& v, RecordingsAnswer& answer) {
   v.required("events", answer.events, "The newest first");
+  v.required("total", answer.total, "Number of all events on the disk");
+  v.required("matching", answer.matching, "Number of those that the request asks for, of any age");
+  v.required("has_older", answer.has_older,
+             "True: events older than these match, too; ask again with before");
   v.required("missing", answer.missing, "Key that recording needs; null: none");
 }
 

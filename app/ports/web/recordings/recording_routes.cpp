@@ -5,6 +5,7 @@
 
 #include "app/ports/web/api/json_form.h"
 #include "app/ports/web/http/entity_tag.h"
+#include "app/ports/web/recordings/event_search.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -25,15 +26,16 @@ Response sent(const Result<std::filesystem::path>& path, std::string_view type) 
 
 }  // namespace
 
-void RecordingRoutes::list(const ExchangePtr& exchange) const {
-  changes_.read(exchange, [events = events_, listed = listed_] {
-    if (!events) return tagged({{}, "[recorder.events]"});
-    const auto found = events->list();
-    if (!found) return error_response(503, found.error().message);
-    if (*found != listed->events) {
-      *listed = {*found, tagged({{(*found)->rbegin(), (*found)->rend()}, {}})};
+void RecordingRoutes::list(const RecordingsQuery& query, const ExchangePtr& exchange) const {
+  changes_.read(exchange, [events = events_, query] {
+    if (!events) {
+      RecordingsAnswer none;
+      none.missing = "[recorder.events]";
+      return tagged(std::move(none));
     }
-    return listed->response;
+    const auto found = events->list();
+    return found ? tagged(search_events(**found, query))
+                 : error_response(503, found.error().message);
   });
 }
 

@@ -25,8 +25,7 @@ class RecordingRoutes {
                   Changes& changes)
       : events_(std::move(events)), regions_(std::move(regions)), changes_(changes) {}
 
-  /// An unchanged list costs nothing: its answer is kept.
-  void list(const ExchangePtr& exchange) const;
+  void list(const RecordingsQuery& query, const ExchangePtr& exchange) const;
   void picture(const EventQuery& query, const ExchangePtr& exchange) const;
   void frames(const EventQuery& query, const ExchangePtr& exchange) const;
   void frame(const FrameQuery& query, const ExchangePtr& exchange) const;
@@ -38,19 +37,12 @@ class RecordingRoutes {
   Answered<Done> remove(Change<EventQuery>& change) const;
 
  private:
-  struct Listed {
-    std::shared_ptr<const std::vector<RecordedEvent>> events;
-    Response response;
-  };
-
   /// Answers by `handle`, on the thread that waits for the disk; 404 without a recorder of events.
   void read(const ExchangePtr& exchange,
             std::function<Response(RecordedEvents& events)> handle) const;
 
   const std::shared_ptr<RecordedEvents> events_;
   const RecordedRegionsReader regions_;
-  const std::shared_ptr<Listed> listed_ =
-      std::make_shared<Listed>();  ///< of the thread of changes_
   Changes& changes_;
 };
 

@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "app/ports/recorder/events/event_summary.h"
 #include "tests/app/cli/command_line.h"
@@ -162,6 +164,33 @@ TEST_F(EventExport, AnExistingFileIsKeptUnlessForced) {
   EXPECT_EQ(export_to("mine.csv", {"--force"}), 0) << said;
   EXPECT_GT(lines_of("mine.csv").size(), 1U);
   EXPECT_EQ(folder.files(), 2) << "nothing beside it";
+}
+
+TEST_F(EventExport, CtrlCLeavesNoFile) {
+  const std::filesystem::path exported = path("exported");
+  std::filesystem::create_directory(exported);
+  const auto is_writing = [&] { return !std::filesystem::is_empty(exported); };
+  // An export may end before the signal: it is stopped while it writes, and tried again otherwise.
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    Subprocess program({ORBWATCH_PROGRAM, "events", "export", kEvent, "--folder",
+                        path("recordings"), "-o", path("exported/drawn.avi"), "--draw"},
+                       folder / "printed");
+    while (!is_writing() && program.runs()) std::this_thread::yield();
+    program.send(SIGSTOP);
+    const bool is_done = std::filesystem::exists(exported / "drawn.avi");
+    program.send(SIGINT);
+    program.send(SIGCONT);
+    const int code = program.wait();
+    if (is_done || code == 0) {
+      std::filesystem::remove(exported / "drawn.avi");
+      continue;
+    }
+    EXPECT_EQ(code, 1) << program.output();
+    EXPECT_THAT(program.output(), HasSubstr("cancelled"));
+    EXPECT_FALSE(is_writing());
+    return;
+  }
+  ADD_FAILURE() << "no export was interrupted";
 }
 
 TEST_F(EventExport, MistakesLeaveNoFile) {

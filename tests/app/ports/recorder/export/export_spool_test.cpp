@@ -157,6 +157,33 @@ TEST_F(Spool, KeepsAFileFromOthersForAMinute) {
   EXPECT_FALSE(spool->file(*number)) << "replaced";
 }
 
+TEST_F(Spool, GivesItsPlaceToOthersAfterItsTime) {
+  spool.emplace(settings(), ExportTimes{.owned = std::chrono::seconds(0)});
+  spool->start();
+  const auto number = spool->begin(request(ExportFormat::Csv, "kim"));
+  ASSERT_TRUE(number);
+  ASSERT_EQ(end().state, ExportState::Ready);
+  const auto other = spool->begin(request(ExportFormat::Csv, "lee"));
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_EQ(end().state, ExportState::Ready);
+  EXPECT_FALSE(spool->file(*number));
+}
+
+TEST_F(Spool, RemovesAFileThatNobodyTakes) {
+  spool.emplace(settings(), ExportTimes{.kept = std::chrono::milliseconds(1)});
+  spool->start();
+  const auto number = spool->begin(request(ExportFormat::Csv));
+  ASSERT_TRUE(number);
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (spool->status().state != ExportState::None || !files().empty()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up);
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(spool->status().error, "");
+  EXPECT_FALSE(spool->file(*number));
+  EXPECT_FALSE(spool->remove(*number));
+}
+
 TEST_F(Spool, LeavesTheReserveOfTheDisk) {
   const auto free = fs::space(folder.path()).available >> 20;
   spool.emplace(settings(static_cast<int>(free) + 1024));

@@ -154,6 +154,25 @@ TEST_F(RecordingRoutes, ListTheNewestFirst) {
   EXPECT_EQ(newest["is_pinned"], false);
 }
 
+TEST_F(RecordingRoutes, SearchTheEvents) {
+  for (const char* name : {"e1", "e2", "e3"}) events->add(name, "recording");
+  const auto search = [&](const std::string& query) {
+    return json::parse(get(port(), "/api/v1/recordings?" + query).body);
+  };
+  const json newest = search("limit=2&part=BLADE%207&layer=12&to=2026-11-28T12:00:00Z");
+  ASSERT_EQ(newest["events"].size(), 2U);
+  EXPECT_EQ(newest["events"][1]["name"], "e2");
+  EXPECT_EQ(newest["matching"], 3);
+  EXPECT_EQ(newest["has_older"], true);
+  const json older = search("before=e2");
+  ASSERT_EQ(older["events"].size(), 1U);
+  EXPECT_EQ(older["has_older"], false);
+  EXPECT_EQ(search("trigger=line")["matching"], 0);
+  for (const char* wrong : {"limit=0", "limit=1001", "limit=x", "layer=x", "from=yesterday"}) {
+    EXPECT_EQ(get(port(), std::string("/api/v1/recordings?") + wrong).status, 400) << wrong;
+  }
+}
+
 TEST_F(RecordingRoutes, SendAListAgainOnlyWhenItDiffers) {
   events->add("e1", "recording");
   const auto ask = [&](const std::string& tag) {

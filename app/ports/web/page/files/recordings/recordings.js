@@ -9,6 +9,9 @@ import { texts } from "../texts.js";
 import { Viewer } from "./viewer.js";
 
 const kAgainMs = 2000;
+const kTypingMs = 200; // from the last key to the request
+const kPage = 100; // events
+const kMost = 1000; // that the appliance sends at once
 const kKinds = ["alarm", "command", "laser_on", "layer", "line"];
 const kNamed = ["alarm", "line"]; // kinds whose cause has a name
 const kMebibyte = 2 ** 20;
@@ -67,8 +70,9 @@ class Card {
 
 export class Recordings {
   #cards;
-  #events = [];
-  #tag = ""; // of the list in #events
+  #limit = kPage;
+  #address = ""; // of the list that is shown
+  #tag = ""; // of that list
   #again = 0;
 
   // `figures`: descriptions of figures by kind of component. `may(role)`: true if the user may do what the role may.
@@ -82,13 +86,17 @@ export class Recordings {
     this.part = element("input", { name: "part", type: "search" });
     this.layer = element("input", { name: "layer", type: "number", step: 1 });
     this.since = element("input", { name: "since", type: "datetime-local" });
+    this.until = element("input", { name: "until", type: "datetime-local" });
     this.filters = element("form", { className: "buttons" },
       ...[["kind", this.kind], ["part", this.part], ["layer", this.layer]].map(([name, input]) =>
         element("label", {}, texts.recordings.filters[name], " ", input)),
-      element("label", {}, texts.recordings.filters.since(timeZone), " ", this.since));
-    this.filters.addEventListener("input", () => this.#show());
+      ...[["since", this.since], ["until", this.until]].map(([name, input]) =>
+        element("label", {}, texts.recordings.filters[name](timeZone), " ", input)));
+    this.filters.addEventListener("input", () => this.#search());
     this.filters.addEventListener("submit", (event) => event.preventDefault());
     this.list = element("ul", { id: "events" });
+    this.more = button(texts.recordings.more, () => this.#showMore());
+    this.narrow = element("p", { className: "quiet", hidden: true }, texts.recordings.narrow(kMost));
     this.viewer = new Viewer(figures);
     const asked = {
       change: (path, body) => this.#tell(post(`api/v1/${path}`, body)),
@@ -96,7 +104,8 @@ export class Recordings {
     };
     this.#cards = new Cards(this.list, ({ name }) => name, (event) => new Card(event, asked, may));
     root.append(this.viewer.root, element("p", { className: "buttons" }, may("operator") ? this.record : ""),
-      this.filters, this.said, this.refused, this.list);
+      this.filters, this.said, this.refused, this.list, this.more, this.narrow);
+    this.more.hidden = true;
     addEventListener("hashchange", () => this.#read());
     this.#read();
   }
@@ -107,40 +116,53 @@ export class Recordings {
     this.#read();
   }
 
+  #search() {
+    this.#limit = kPage;
+    clearTimeout(this.#again);
+    this.#again = setTimeout(() => this.#read(), kTypingMs);
+  }
+
+  #showMore() {
+    this.#limit = Math.min(this.#limit + kPage, kMost);
+    this.#read();
+  }
+
+  // Address of the events that the filters leave.
+  #wanted() {
+    const moment = ({ value }) => (value ? new Date(value).toISOString() : "");
+    const asked = { trigger: this.kind.value, part: this.part.value.trim(), layer: this.layer.value,
+      from: moment(this.since), to: moment(this.until), limit: this.#limit };
+    return `api/v1/recordings?${new URLSearchParams(Object.entries(asked).filter(([, value]) => value !== ""))}`;
+  }
+
   async #read() {
     clearTimeout(this.#again);
     if (this.root.hidden) return;
-    const asked = { headers: this.#tag ? { "If-None-Match": this.#tag } : {} };
-    const answer = document.hidden ? null : await fetch("api/v1/recordings", asked).catch(() => null);
-    if (answer && answer.status !== 304) await this.#take(answer);
+    const address = this.#wanted();
+    const tag = address === this.#address ? this.#tag : "";
+    const answer = document.hidden ? null
+      : await fetch(address, { headers: tag ? { "If-None-Match": tag } : {} }).catch(() => null);
+    if (address !== this.#wanted()) return; // its answer is awaited
+    if (answer && answer.status !== 304) await this.#take(answer, address);
     clearTimeout(this.#again);
     this.#again = setTimeout(() => this.#read(), kAgainMs);
   }
 
   // A list that differs, or the reason why there is none.
-  async #take(answer) {
+  async #take(answer, address) {
     const read = await answer.json().catch(() => null);
+    this.#address = address;
     this.#tag = read?.events ? answer.headers.get("ETag") ?? "" : "";
     if (read?.error) setText(this.said, texts.refused(read.error));
     else if (read?.missing) setText(this.said, texts.recordings.missing(read.missing));
-    else if (read) {
-      this.#events = read.events;
-      this.#show();
-    }
+    else if (read) this.#show(read);
     this.record.hidden = this.filters.hidden = Boolean(read?.missing);
   }
 
-  #isWanted({ trigger, part, layer, triggered, first }) {
-    const since = this.since.value ? Date.parse(this.since.value) : -Infinity;
-    return (!this.kind.value || trigger === this.kind.value)
-      && part.toLowerCase().includes(this.part.value.trim().toLowerCase())
-      && (!this.layer.value || layer === Number(this.layer.value))
-      && !(Date.parse(triggered || first) < since);
-  }
-
-  #show() {
-    const shown = this.#events.filter((event) => this.#isWanted(event));
-    setText(this.said, texts.recordings.count(shown.length, this.#events.length));
-    this.#cards.show(shown);
+  #show({ events, matching, total, has_older: hasOlder }) {
+    setText(this.said, texts.recordings.count(matching, total));
+    this.#cards.show(events);
+    this.more.hidden = !hasOlder || this.#limit === kMost;
+    this.narrow.hidden = !hasOlder || this.#limit < kMost;
   }
 }

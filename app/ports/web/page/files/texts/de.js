@@ -323,7 +323,10 @@ export const texts = {
       line: "Eine digitale Leitung" },
     record: "Aufzeichnen, was jetzt geschieht",
     all: "alle",
-    filters: { kind: "Ursache", part: "Teil enthält", layer: "Lage", since: (zone) => `Seit (${zone})` },
+    filters: { kind: "Ursache", part: "Teil enthält", layer: "Lage", since: (zone) => `Seit (${zone})`,
+      until: (zone) => `Bis (${zone})` },
+    more: "Mehr zeigen",
+    narrow: (most) => `Die neuesten ${most} sind gezeigt. Ältere zeigt eine engere Suche.`,
     missing: (key) => `Es werden keine Ereignisse aufgezeichnet: setzen Sie ${key} in der Konfigurationsdatei.`,
     count: (shown, all) => (shown === all ? `${all} ${all === 1 ? "Ereignis" : "Ereignisse"}`
       : `${shown} von ${all} Ereignissen`),

@@ -316,7 +316,10 @@ export const texts = {
       line: "A digital line" },
     record: "Record what happens now",
     all: "all",
-    filters: { kind: "Cause", part: "Part contains", layer: "Layer", since: (zone) => `Since (${zone})` },
+    filters: { kind: "Cause", part: "Part contains", layer: "Layer", since: (zone) => `Since (${zone})`,
+      until: (zone) => `Until (${zone})` },
+    more: "Show more",
+    narrow: (most) => `The newest ${most} are shown. Narrow the search to see older ones.`,
     missing: (key) => `No events are recorded: set ${key} in the configuration file.`,
     count: (shown, all) => (shown === all ? `${all} ${all === 1 ? "event" : "events"}` : `${shown} of ${all} events`),
     machine: (part, layer) => [part ? `part ${part}` : "", layer === null ? "" : `layer ${layer}`]

@@ -309,7 +309,10 @@ export const texts = {
       line: "デジタル入力" },
     record: "今の状況を記録",
     all: "すべて",
-    filters: { kind: "原因", part: "部品名に含む", layer: "層", since: (zone) => `開始日時 (${zone})` },
+    filters: { kind: "原因", part: "部品名に含む", layer: "層", since: (zone) => `開始日時 (${zone})`,
+      until: (zone) => `終了日時 (${zone})` },
+    more: "さらに表示",
+    narrow: (most) => `新しい順に ${most} 件を表示しています。古いものは条件を絞ると表示されます。`,
     missing: (key) => `イベントは記録されていません。設定ファイルで ${key} を設定してください。`,
     count: (shown, all) => (shown === all ? `イベント ${all} 件` : `イベント ${all} 件中 ${shown} 件`),
     machine: (part, layer) => [part ? `部品 ${part}` : "", layer === null ? "" : `層 ${layer}`]
