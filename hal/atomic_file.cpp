@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "hal/regular_file.h"
 #include "hal/thread/file_descriptor.h"
@@ -43,6 +44,11 @@ bool is_synced(const std::filesystem::path& folder) {
 constexpr mode_t kOwnersAlone = 0600;
 constexpr mode_t kReadable = 0644;
 constexpr mode_t kPermissions = 0777;
+
+/// The error of errno.
+tl::unexpected<Error> not_written(const std::filesystem::path& path) {
+  return fail(path.string() + ": cannot be written: " + std::system_category().message(errno));
+}
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
@@ -77,23 +83,47 @@ bool set_access(const std::filesystem::path& path, FileAccess access, const File
 
 }  // namespace
 
-Result<> write_file(const std::filesystem::path& path, std::string_view text, FileAccess access) {
+AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path temporary,
+                       FileDescriptor file)
+    : path_(std::move(path)), temporary_(std::move(temporary)), file_(std::move(file)) {}
+
+AtomicFile::~AtomicFile() {
+  if (file_.is_open()) ::unlink(temporary_.c_str());
+}
+
+Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, FileAccess access) {
   static std::atomic<unsigned> serial{0};
   const std::string temporary =
       path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
   const mode_t mode = access == FileAccess::Umask ? 0666 : kOwnersAlone;
-  const FileDescriptor file(
-      ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode));
+  FileDescriptor opened(::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode));
+  if (!opened.is_open()) return not_written(path);
+  AtomicFile file(path, temporary, std::move(opened));
   // The lock ends with the process; while it is held, the file is not a leftover. On a file system
   // without locks, leftovers are not removed either.
-  if (file.is_open()) static_cast<void>(::flock(file.get(), LOCK_EX));
-  const bool is_replaced = file.is_open() && set_access(path, access, file) &&
-                           write_all(file, text) && ::fsync(file.get()) == 0 &&
-                           ::rename(temporary.c_str(), path.c_str()) == 0;
-  if (is_replaced && is_synced(path.parent_path())) return {};
-  const std::string reason = std::system_category().message(errno);
-  if (file.is_open() && !is_replaced) ::unlink(temporary.c_str());
-  return fail(path.string() + ": cannot be written: " + reason);
+  static_cast<void>(::flock(file.file_.get(), LOCK_EX));
+  if (!set_access(path, access, file.file_)) return not_written(path);
+  return file;
+}
+
+Result<> AtomicFile::write(std::string_view bytes) {
+  if (!write_all(file_, bytes)) return not_written(path_);
+  return {};
+}
+
+Result<> AtomicFile::place() {
+  const bool is_placed =
+      ::fsync(file_.get()) == 0 && ::rename(temporary_.c_str(), path_.c_str()) == 0;
+  if (!is_placed) return not_written(path_);
+  file_ = FileDescriptor();
+  if (!is_synced(path_.parent_path())) return not_written(path_);
+  return {};
+}
+
+Result<> write_file(const std::filesystem::path& path, std::string_view text, FileAccess access) {
+  auto file = AtomicFile::create(path, access);
+  if (!file) return tl::unexpected(file.error());
+  return file->write(text).and_then([&] { return file->place(); });
 }
 
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
@@ -27,6 +28,27 @@ Result<> write_file(const std::filesystem::path& path, std::span<const std::uint
                     FileAccess access = FileAccess::Umask);
 Result<> write_file(const std::filesystem::path& path, std::string_view text,
                     FileAccess access = FileAccess::Umask);
+
+/// The same for a file that is written in parts: readers find the old one until it is placed. A
+/// file that is not placed leaves nothing. Thread-bound.
+class AtomicFile {
+ public:
+  static Result<AtomicFile> create(const std::filesystem::path& path,
+                                   FileAccess access = FileAccess::Umask);
+  AtomicFile(AtomicFile&&) noexcept = default;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+  ~AtomicFile();
+
+  Result<> write(std::string_view bytes);
+  /// Ends the file, and replaces the one of this name.
+  Result<> place();
+
+ private:
+  AtomicFile(std::filesystem::path path, std::filesystem::path temporary, FileDescriptor file);
+
+  std::filesystem::path path_, temporary_;
+  FileDescriptor file_;  ///< not open: placed, or moved from
+};
 
 /// Makes a changed or removed name in the folder survive a power cut. Error: the folder cannot be
 /// read or written.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -35,7 +37,14 @@ void check(const Result<ReadBackup>& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  orbwatch::fuzz::check(orbwatch::app::cli::backup::parse_backup(bytes));
+  std::string_view rest = bytes;
+  orbwatch::app::cli::FrameReader frames([&rest](std::span<char> part) {
+    const std::size_t count = std::min(part.size(), rest.size());
+    std::copy_n(rest.begin(), count, part.begin());
+    rest.remove_prefix(count);
+    return orbwatch::Result<std::size_t>(count);
+  });
+  orbwatch::fuzz::check(orbwatch::app::cli::backup::read_backup(frames));
   orbwatch::fuzz::check(orbwatch::app::cli::backup::parse_backup_tar(bytes));
   const auto tar = orbwatch::app::cli::tar_of({{"manifest.json", std::string(bytes)}}, {});
   orbwatch::fuzz::require(tar.has_value(), "no tar");

@@ -277,20 +277,24 @@ class Recordings(PageCase):
         self.assertEqual(export("zip").read_bytes()[:2], b"PK")
         self.assertEqual(self.browser.complaints(), [])
 
-    def cancel_while_it_lasts(self, part, label):
-        """Presses the button `label` of a part of the viewer, and its Cancel as soon as that is shown. Most
+    def cancel_while_it_lasts(self, work, label):
+        """Presses the button `label` that begins an export or a replay, and its Cancel as soon as that is shown. Most
         work on a short event is done in less than a second: tries again when it was done before."""
         self.browser.execute_script("""
-            const cancel = [...document.querySelectorAll(`#viewer ${arguments[0]} button`)]
+            const cancel = [...document.querySelectorAll(`#viewer .${arguments[0]} button`)]
               .find(({ textContent }) => textContent === 'Cancel');
             new MutationObserver(() => { if (!cancel.hidden) cancel.click(); }).observe(cancel, { attributes: true });
-            """, part)
-        status = f"#viewer {part} [role=status]"
+            """, work)
         for _ in range(20):
+            before = self.read(work)["number"]
             self.press(label)
-            text = eventually("it ends", lambda: next((
-                text for text in [self.browser.text(status)] if re.search("ancelled|saved|measured again", text)), None))
-            if "ancelled" in text:
+            eventually("it ends", lambda: [one for one in [self.read(work)] if one["number"] > before
+                                           and one["state"] not in ("making", "measuring", "ready")])
+            said = f"#viewer .{work} [role=status]"
+            text = eventually("it says so", lambda: next((
+                text for text in [self.browser.text(said)]
+                if re.search("Cancelled|is being saved|were measured again", text)), None))
+            if text.startswith("Cancelled"):
                 return
         self.fail(f"{label} was never cancelled")
 
@@ -301,10 +305,10 @@ class Recordings(PageCase):
         self.look_at_one()
         self.browser.find_element(By.CSS_SELECTOR, "#viewer .export summary").click()
         Select(self.browser.find_element(By.NAME, "format")).select_by_value("avi")
-        self.cancel_while_it_lasts(".export", "Export as a file")
+        self.cancel_while_it_lasts("export", "Export as a file")
         self.assertEqual(self.read("export")["state"], "none")
         self.browser.find_element(By.CSS_SELECTOR, "#viewer .replay summary").click()
-        self.cancel_while_it_lasts(".replay", "Measure it again")
+        self.cancel_while_it_lasts("replay", "Measure it again")
         self.assertEqual(self.read("replay")["state"], "none")
 
     def replay(self, recipe):

@@ -29,20 +29,4 @@ Result<std::string> compressed(std::string_view bytes) {
   return frame;
 }
 
-Result<std::string> decompressed(std::string_view bytes, std::size_t most) {
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) {
-    return fail("is not compressed by zstd, or does not state its size");
-  }
-  if (size > most) return fail("is larger than " + std::to_string(most >> 20) + " MiB");
-  if (ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size()) {
-    return fail("is damaged, cut off, or followed by other bytes");
-  }
-  std::string text(size, '\0');
-  const std::size_t got = ZSTD_decompress(text.data(), text.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(got) != 0) return fail(std::string("is damaged: ") + ZSTD_getErrorName(got));
-  if (got != size) return fail("is damaged: its size is not the stated one");
-  return text;
-}
-
 }  // namespace orbwatch::app::cli

@@ -2,137 +2,13 @@
 #include "app/cli/archive/tar.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <cstring>
-#include <optional>
 #include <set>
-#include <span>
-#include <type_traits>
+#include <utility>
+
+#include "app/cli/archive/tar_header.h"
 
 namespace orbwatch::app::cli {
 namespace {
-
-constexpr std::size_t kBlock = 512;
-constexpr std::string_view kMagic("ustar\00000", 8);  // and the version
-constexpr char kRegular = '0', kRegularOfOld = '\0';
-constexpr mode_t kPermissions = 07777;
-
-/// Numbers are octal text, texts end with a zero unless they fill their field.
-struct TarHeader {
-  std::array<char, 100> name{};
-  std::array<char, 8> mode{};
-  std::array<char, 8> user{};
-  std::array<char, 8> group{};
-  std::array<char, 12> size{};
-  std::array<char, 12> time{};
-  std::array<char, 8> checksum{};
-  char type = kRegular;
-  std::array<char, 100> link{};
-  std::array<char, 8> magic{};
-  std::array<char, 32> user_name{};
-  std::array<char, 32> group_name{};
-  std::array<char, 8> device_major{};
-  std::array<char, 8> device_minor{};
-  std::array<char, 155> prefix{};  ///< folders in front of the name
-  std::array<char, 12> padding{};
-};
-static_assert(sizeof(TarHeader) == kBlock && std::is_trivially_copyable_v<TarHeader>);
-
-template <std::size_t N>
-void put_number(std::array<char, N>& field, std::uint64_t number) {
-  field.back() = '\0';
-  for (std::size_t i = N - 1; i-- > 0; number >>= 3) {
-    field[i] = static_cast<char>('0' + (number & 7U));
-  }
-}
-
-/// Nullopt: not octal digits between spaces.
-template <std::size_t N>
-std::optional<std::uint64_t> number_in(const std::array<char, N>& field) {
-  std::string_view text(field.data(), N);
-  text = text.substr(0, text.find('\0'));
-  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-  text = text.substr(0, text.find_last_not_of(' ') + 1);
-  constexpr std::size_t kMostDigits = 21;
-  if (text.empty() || text.size() > kMostDigits) return std::nullopt;
-  std::uint64_t number = 0;
-  for (const char digit : text) {
-    if (digit < '0' || digit > '7') return std::nullopt;
-    number = number * 8 + static_cast<std::uint64_t>(digit - '0');
-  }
-  return number;
-}
-
-template <std::size_t N>
-std::string_view text_in(const std::array<char, N>& field) {
-  const std::string_view all(field.data(), N);
-  return all.substr(0, all.find('\0'));
-}
-
-/// Sum of all bytes, with spaces in the field of the sum.
-std::uint64_t checksum_of_header(TarHeader header) {
-  header.checksum.fill(' ');
-  std::uint64_t sum = 0;
-  for (const auto byte : std::bit_cast<std::array<unsigned char, kBlock>>(header)) sum += byte;
-  return sum;
-}
-
-/// Splits a name at a slash so that both parts fit. False: there is no such slash.
-bool put_name(TarHeader& header, std::string_view name) {
-  if (name.size() <= header.name.size()) {
-    std::ranges::copy(name, header.name.begin());
-    return true;
-  }
-  const std::size_t slash = name.find('/', name.size() - header.name.size() - 1);
-  if (slash == std::string_view::npos || slash > header.prefix.size()) return false;
-  std::ranges::copy(name.substr(0, slash), header.prefix.begin());
-  std::ranges::copy(name.substr(slash + 1), header.name.begin());
-  return true;
-}
-
-Result<TarHeader> header_of(const ArchivedFile& file, std::chrono::sys_seconds made) {
-  TarHeader header;
-  if (auto named = check_archived_name(file.name); !named) return tl::unexpected(named.error());
-  if (!put_name(header, file.name)) return fail(file.name + ": the name is too long");
-  std::ranges::copy(kMagic, header.magic.begin());
-  put_number(header.mode, file.mode & kPermissions);
-  put_number(header.user, 0);
-  put_number(header.group, 0);
-  put_number(header.size, file.bytes.size());
-  put_number(header.time, static_cast<std::uint64_t>(
-                              std::max<std::int64_t>(made.time_since_epoch().count(), 0)));
-  put_number(header.device_major, 0);
-  put_number(header.device_minor, 0);
-  put_number(header.checksum, checksum_of_header(header));
-  return header;
-}
-
-std::size_t padded(std::size_t size) { return (size + kBlock - 1) / kBlock * kBlock; }
-
-/// An entry whose bytes are not read yet.
-struct Entry {
-  ArchivedFile file;
-  std::uint64_t size = 0;
-};
-
-Result<Entry> entry_of(const TarHeader& header) {
-  if (std::string_view(header.magic.data(), header.magic.size()) != kMagic ||
-      number_in(header.checksum) != checksum_of_header(header)) {
-    return fail("is damaged, or not an archive of this kind");
-  }
-  std::string name(text_in(header.prefix));
-  if (!name.empty()) name += '/';
-  name += text_in(header.name);
-  if (auto named = check_archived_name(name); !named) return tl::unexpected(named.error());
-  if (header.type != kRegular && header.type != kRegularOfOld) {
-    return fail(name + ": is not a regular file");
-  }
-  const auto mode = number_in(header.mode), size = number_in(header.size);
-  if (!mode || !size) return fail(name + ": mode or size is damaged");
-  return Entry{{std::move(name), {}, static_cast<mode_t>(*mode) & kPermissions}, *size};
-}
 
 bool is_zero(std::string_view bytes) { return bytes.find_first_not_of('\0') == bytes.npos; }
 
@@ -141,36 +17,34 @@ bool is_zero(std::string_view bytes) { return bytes.find_first_not_of('\0') == b
 Result<std::string> tar_of(const Archive& archive, std::chrono::sys_seconds made) {
   std::string bytes;
   for (const ArchivedFile& file : archive) {
-    const auto header = header_of(file, made);
+    const auto header = tar_header({file.name, file.bytes.size(), file.mode}, made);
     if (!header) return tl::unexpected(header.error());
-    bytes.append(reinterpret_cast<const char*>(&*header), kBlock);
+    bytes += *header;
     bytes += file.bytes;
-    bytes.resize(padded(bytes.size()), '\0');
+    bytes.resize(tar_padded(bytes.size()), '\0');
   }
-  bytes.append(2 * kBlock, '\0');  // the end
+  bytes.append(2 * kTarBlock, '\0');  // the end
   return bytes;
 }
 
 Result<Archive> parse_tar(std::string_view bytes) {
   Archive archive;
   std::set<std::string> names;
-  while (bytes.size() >= kBlock && !is_zero(bytes.substr(0, kBlock))) {
-    TarHeader header;
-    std::memcpy(&header, bytes.data(), kBlock);
-    bytes.remove_prefix(kBlock);
-    auto entry = entry_of(header);
+  while (bytes.size() >= kTarBlock && !is_zero(bytes.substr(0, kTarBlock))) {
+    auto entry = parse_tar_header(bytes.substr(0, kTarBlock));
     if (!entry) return tl::unexpected(entry.error());
-    const std::string& name = entry->file.name;
+    bytes.remove_prefix(kTarBlock);
+    const std::string& name = entry->name;
     if (entry->size > bytes.size()) return fail(name + ": is cut off");
     if (!names.insert(name).second) return fail(name + ": occurs twice");
     if (names.size() > kMostArchivedFiles) {
       return fail("has more than " + std::to_string(kMostArchivedFiles) + " files");
     }
-    entry->file.bytes = bytes.substr(0, entry->size);
-    bytes.remove_prefix(std::min(padded(entry->size), bytes.size()));
-    archive.push_back(std::move(entry->file));
+    std::string content(bytes.substr(0, entry->size));
+    bytes.remove_prefix(std::min<std::uint64_t>(tar_padded(entry->size), bytes.size()));
+    archive.push_back({std::move(entry->name), std::move(content), entry->mode});
   }
-  if (bytes.size() < kBlock) return fail("is cut off");
+  if (bytes.size() < kTarBlock) return fail("is cut off");
   if (!is_zero(bytes)) return fail("has bytes after its end");
   return archive;
 }

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/backup/backup_file.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <functional>
+#include <memory>
+#include <system_error>
 #include <utility>
 
 #include "app/cli/archive/compression.h"
 #include "app/cli/archive/tar.h"
 #include "app/cli/backup/sealing.h"
 #include "app/cli/backup/site_places.h"
+#include "app/ports/recorder/events/event_name.h"
+#include "hal/regular_file.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::cli::backup {
 namespace {
@@ -17,6 +28,11 @@ constexpr const char* kSealedName = "secrets.sealed";
 
 std::chrono::sys_seconds now() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+/// The error of errno.
+tl::unexpected<Error> not_read(const std::filesystem::path& file) {
+  return fail(file.string() + ": cannot be read: " + std::system_category().message(errno));
 }
 
 void complete(Manifest& manifest, const Backup& backup, bool is_sealed) {
@@ -38,6 +54,15 @@ Result<> check_file(const ArchivedFile& file, const ManifestFile& stated) {
     return {};
   }
   return fail("is damaged: " + file.name + " is not the file that was backed up");
+}
+
+/// Error: names that are not those of events, in order and once each.
+Result<> check_events(const std::vector<ManifestEvent>& events) {
+  const bool are_names = std::ranges::all_of(events, recorder::is_event_name, &ManifestEvent::name);
+  const bool are_in_order = std::ranges::adjacent_find(events, std::ranges::greater_equal(),
+                                                       &ManifestEvent::name) == events.end();
+  if (!are_names || !are_in_order) return fail("is damaged: its list of events is not right");
+  return {};
 }
 
 /// The files between the manifest and the sealed ones.
@@ -69,10 +94,32 @@ Result<std::string> backup_bytes(Backup backup, std::string_view passphrase) {
   return tar_of(archive, now()).and_then([](const std::string& tar) { return compressed(tar); });
 }
 
-Result<ReadBackup> parse_backup(std::string_view bytes) {
-  return decompressed(bytes, kMostBytes).and_then([](const std::string& tar) {
-    return parse_backup_tar(tar);
+Result<FrameReader> open_frames(const std::filesystem::path& file) {
+  const auto opened = std::make_shared<const hal::FileDescriptor>(hal::open_no_link(file));
+  struct stat about {};
+  if (!opened->is_open() || ::fstat(opened->get(), &about) != 0) return not_read(file);
+  if (!S_ISREG(about.st_mode)) return fail(file.string() + ": is not a regular file");
+  return FrameReader([opened, file](std::span<char> bytes) -> Result<std::size_t> {
+    const ssize_t count = ::read(opened->get(), bytes.data(), bytes.size());
+    if (count < 0) return not_read(file);
+    return static_cast<std::size_t>(count);
   });
+}
+
+Result<ReadBackup> read_backup(FrameReader& frames) {
+  const auto has_one = frames.next();
+  if (!has_one) return tl::unexpected(has_one.error());
+  if (!*has_one) return fail("is empty");
+  const auto tar = frames.read_all(kMostBytes);
+  if (!tar) return tl::unexpected(tar.error());
+  auto read = parse_backup_tar(*tar);
+  if (!read) return read;
+  const auto has_more = frames.next();
+  if (!has_more) return tl::unexpected(has_more.error());
+  const bool has_events = !read->backup.manifest.events.empty();
+  if (*has_more && !has_events) return fail("is damaged: other bytes follow it");
+  if (!*has_more && has_events) return fail("is cut off: its events are missing");
+  return read;
 }
 
 Result<ReadBackup> parse_backup_tar(std::string_view tar) {
@@ -85,6 +132,7 @@ Result<ReadBackup> parse_backup_tar(std::string_view tar) {
   read.manifest_text = std::move(archive->front().bytes);
   auto manifest = parse_manifest(read.manifest_text);
   if (!manifest) return tl::unexpected(manifest.error());
+  if (auto right = check_events(manifest->events); !right) return tl::unexpected(right.error());
   archive->erase(archive->begin());
   if (manifest->secrets == Secrets::Encrypted) {
     if (archive->empty() || archive->back().name != kSealedName) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/backup/backup_file.h"
+#include "app/cli/backup/kept_events.h"
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
 #include "app/cli/backup/restore_report.h"
@@ -43,38 +44,41 @@ Result<std::vector<CameraAddress>> cameras_in(const fs::path& file) {
   return cameras;
 }
 
-/// The backup, with its secrets if there is a passphrase.
-Result<Backup> backup_in(const fs::path& folder, const std::string& bytes) {
-  auto read = parse_backup(bytes);
-  if (!read) return tl::unexpected(read.error());
+/// Decrypts the secrets if there is a passphrase.
+Result<> open_secrets_in(const fs::path& folder, ReadBackup& read) {
   const auto text = text_of(folder / "passphrase");
   if (!text) return tl::unexpected(text.error());
-  if (*text && read->backup.manifest.secrets == Secrets::Encrypted) {
-    const std::string passphrase = (*text)->substr(0, (*text)->find_first_of("\r\n"));
-    if (const auto opened = open_secrets(*read, passphrase); !opened) {
-      return tl::unexpected(opened.error());
-    }
-  }
-  return std::move(read->backup);
+  if (!*text || read.backup.manifest.secrets != Secrets::Encrypted) return {};
+  return open_secrets(read, (*text)->substr(0, (*text)->find_first_of("\r\n")));
 }
 
-/// Restores `bytes`, and records them.
-Result<std::string> restored(const fs::path& config, const fs::path& folder,
-                             const std::string& bytes, const std::string& record) {
-  const auto backup = backup_in(folder, bytes);
-  if (!backup) return tl::unexpected(backup.error());
+/// Restores a backup, and records it. Events that have no place do not keep the service from
+/// starting.
+Result<std::string> restored(const fs::path& config, const fs::path& folder, FrameReader& frames,
+                             const std::string& record) {
+  auto read = read_backup(frames);
+  if (!read) return tl::unexpected(read.error());
+  if (const auto opened = open_secrets_in(folder, *read); !opened) {
+    return tl::unexpected(opened.error());
+  }
   const auto cameras = cameras_in(folder / "cameras");
   if (!cameras) return tl::unexpected(cameras.error());
-  const auto restoration = restoration_of(*backup, config, *cameras);
+  const auto restoration = restoration_of(read->backup, config, *cameras);
   if (!restoration) return tl::unexpected(restoration.error());
   const auto reserved = exclude_daemon(restoration->places);
   if (!reserved) return tl::unexpected(reserved.error());
   constexpr mode_t kOwnersFile = 0600;
   DiskChanges disk;
-  const std::string text = restore_text(*backup, *restoration);
-  return replace_files(restoration->places, restoration->files, disk)
-      .and_then([&] { return disk.write(boot_record(restoration->places), record, kOwnersFile); })
-      .map([&] { return text + "restored from " + folder.string() + "\n"; });
+  std::string text = restore_text(read->backup, *restoration);
+  const auto replaced = replace_files(restoration->places, restoration->files, disk).and_then([&] {
+    return disk.write(boot_record(restoration->places), record, kOwnersFile);
+  });
+  if (!replaced) return tl::unexpected(replaced.error());
+  text += "restored from " + folder.string() + "\n";
+  if (restoration->events.empty()) return text;
+  const auto placed = place_events(frames, restoration->events, restoration->event_place, disk);
+  if (!placed) text += "not all events are restored: " + shown(placed.error().message) + "\n";
+  return text;
 }
 
 }  // namespace
@@ -87,12 +91,14 @@ Result<std::string> restore_from_boot(const fs::path& config, const fs::path& fo
   if (folder.empty() || !fs::exists(file, none)) return std::string();
   const auto places = present_places(config);
   if (!places) return tl::unexpected(places.error());
-  const auto bytes = hal::read_regular_file(file, kMostBytes);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const std::string record = sha256(*bytes) + "\n";
+  const auto hash = sha256_of(file);
+  if (!hash) return tl::unexpected(hash.error());
+  const std::string record = *hash + "\n";
   const auto before = hal::read_regular_file(boot_record(*places));
   if (before && *before == record) return std::string();
-  auto done = restored(config, folder, *bytes, record);
+  auto frames = open_frames(file);
+  if (!frames) return tl::unexpected(frames.error());
+  auto done = restored(config, folder, *frames, record);
   if (!done) return fail(file.string() + ": " + shown(done.error().message));
   return done;
 }

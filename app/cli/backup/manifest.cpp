@@ -48,6 +48,10 @@ std::optional<Manifest> read(const Json& json) {
   }
   manifest.secret_files = json.at("secret_files").get<std::vector<std::string>>();
   manifest.left_out = json.at("left_out").get<std::vector<std::string>>();
+  for (const Json& event : json.value("events", Json::array())) {
+    manifest.events.push_back(
+        {event.at("name").get<std::string>(), event.at("bytes").get<std::uint64_t>()});
+  }
   return manifest;
 }
 
@@ -59,15 +63,18 @@ std::string manifest_text(const Manifest& manifest) {
     files.push_back(
         {{"name", name}, {"sha256", sha256}, {"size", size}, {"mode", mode_text(mode)}});
   }
-  const Json json{{kFormatKey, kFormat},
-                  {"version", manifest.version},
-                  {"made", manifest.made},
-                  {"host", manifest.host},
-                  {"site", manifest.site},
-                  {"secrets", std::string(word_for(kSecretsWords, manifest.secrets))},
-                  {"files", std::move(files)},
-                  {"secret_files", manifest.secret_files},
-                  {"left_out", manifest.left_out}};
+  Json json{{kFormatKey, manifest.events.empty() ? 1 : kFormat},
+            {"version", manifest.version},
+            {"made", manifest.made},
+            {"host", manifest.host},
+            {"site", manifest.site},
+            {"secrets", std::string(word_for(kSecretsWords, manifest.secrets))},
+            {"files", std::move(files)},
+            {"secret_files", manifest.secret_files},
+            {"left_out", manifest.left_out}};
+  for (const auto& [name, bytes] : manifest.events) {
+    json["events"].push_back({{"name", name}, {"bytes", bytes}});
+  }
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

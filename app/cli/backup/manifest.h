@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,9 @@
 
 namespace orbwatch::app::cli::backup {
 
-/// Format of a backup: its manifest, encryption and names. A newer one is refused.
-inline constexpr int kFormat = 1;
+/// Newest format of a backup: its manifest, encryption and names. A newer one is refused. A backup
+/// without events has format 1, which the first versions read.
+inline constexpr int kFormat = 2;
 
 /// Secret files of a backup.
 enum class Secrets { None, Encrypted, LeftOut };
@@ -32,6 +34,14 @@ struct ManifestFile {
   mode_t mode = 0;
 };
 
+/// A kept event of the recorder in a backup.
+struct ManifestEvent {
+  std::string name;
+  std::uint64_t bytes = 0;  ///< of all its files
+
+  bool operator==(const ManifestEvent&) const = default;
+};
+
 /// Description of a backup; also authenticated with its secrets.
 struct Manifest {
   std::string version;  ///< product version
@@ -42,6 +52,7 @@ struct Manifest {
   std::vector<ManifestFile> files{};
   std::vector<std::string> secret_files{};  ///< their names, also if they are left out
   std::vector<std::string> left_out{};      ///< other files that are not in it, with the reason
+  std::vector<ManifestEvent> events{};      ///< in the order in which they follow
 };
 
 std::string manifest_text(const Manifest& manifest);

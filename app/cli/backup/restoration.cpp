@@ -88,6 +88,12 @@ std::vector<std::string> device_notes(const files::Configuration& site, const Ma
   return notes;
 }
 
+EventPlace event_place_of(const files::Configuration& site) {
+  const auto& recorder = std::get<RecorderSettings>(site.sinks);
+  return {recorder.folder.empty() ? fs::path() : full_path(recorder.folder),
+          static_cast<std::uint64_t>(recorder.reserve_mib) << 20};
+}
+
 }  // namespace
 
 Result<CameraAddress> camera_address(const std::string& text) {
@@ -131,8 +137,15 @@ Result<Restoration> restoration_of(const Backup& backup, const fs::path& config,
                 present->state.string() + "; set state_folder of " + file.string() +
                 " to the former first");
   }
-  return Restoration{std::move(*present), std::move(*files), cameras_of(site->site),
-                     device_notes(site->site, backup.manifest)};
+  Restoration restoration{std::move(*present),    std::move(*files),
+                          cameras_of(site->site), device_notes(site->site, backup.manifest),
+                          backup.manifest.events, event_place_of(site->site)};
+  if (!restoration.events.empty() && restoration.event_place.recordings.empty()) {
+    restoration.events.clear();
+    restoration.device_notes.emplace_back(
+        "the kept events are not restored: the configuration has no folder in [recorder]");
+  }
+  return restoration;
 }
 
 std::vector<FileChange> changes_of(const Restoration& restoration) {
@@ -144,6 +157,11 @@ std::vector<FileChange> changes_of(const Restoration& restoration) {
     const auto old = hal::read_regular_file(path, kMostBytes);
     const bool is_same = old && *old == file.bytes;
     changes.push_back({file.name, !is_there ? "new" : is_same ? "same" : "changed"});
+  }
+  const auto missing = missing_events(restoration.events, restoration.event_place);
+  for (const ManifestEvent& event : restoration.events) {
+    const bool is_new = std::ranges::find(missing, event) != missing.end();
+    changes.push_back({"events/" + event.name, is_new ? "new" : "same"});
   }
   return changes;
 }

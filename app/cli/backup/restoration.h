@@ -7,6 +7,7 @@
 
 #include "app/cli/archive/archive.h"
 #include "app/cli/backup/backup_file.h"
+#include "app/cli/backup/kept_events.h"
 #include "app/cli/backup/site_places.h"
 #include "proc/image/result.h"
 
@@ -34,6 +35,8 @@ struct Restoration {
   Archive files;  ///< the configuration file first
   std::vector<RestoredCamera> cameras;
   std::vector<std::string> device_notes;  ///< lines about other settings of one device
+  std::vector<ManifestEvent> events;      ///< none if the configuration has no recordings
+  EventPlace event_place;
 };
 
 /// The places of the site `config` at present: without a readable configuration its state is in the
@@ -46,7 +49,7 @@ Result<SitePlaces> present_places(const std::filesystem::path& config);
 Result<Restoration> restoration_of(const Backup& backup, const std::filesystem::path& config,
                                    const std::vector<CameraAddress>& cameras);
 
-/// A file of a restoration compared with the present one.
+/// A file or an event of a restoration compared with the present one.
 struct FileChange {
   std::string name;
   std::string word;  ///< new, changed or same

@@ -7,6 +7,7 @@
 
 #include "app/cli/backup/backup_file.h"
 #include "app/cli/backup/boot_restore.h"
+#include "app/cli/backup/kept_events.h"
 #include "app/cli/backup/passphrase.h"
 #include "app/cli/backup/pending_restore.h"
 #include "app/cli/backup/placement.h"
@@ -16,7 +17,6 @@
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/files/runtime/site_file.h"
-#include "hal/regular_file.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -28,7 +28,9 @@ constexpr const char* kRestoreUsage =
     "       orbwatch restore --undo | --pending\n\n"
     "Restores what `orbwatch backup` wrote, also on another device or of an older version. Checks\n"
     "everything first; then all files are replaced, or, after a failure or a power cut, none.\n"
-    "Files that the backup does not have stay. The service must be stopped meanwhile:\n"
+    "Files that the backup does not have stay. Kept events in it are added to the recordings; "
+    "those\n"
+    "that are there stay as they are. The service must be stopped meanwhile:\n"
     "systemctl stop orbwatch. Lists what depends on the device, such as the cameras' serial\n"
     "numbers.\n\n";
 
@@ -37,6 +39,7 @@ struct RestoreOptions {
   fs::path passphrase_file;
   std::vector<backup::CameraAddress> cameras;
   bool without_secrets = false;
+  bool without_events = false;
   bool check = false;
   bool json = false;
   bool at_start = false;
@@ -44,11 +47,17 @@ struct RestoreOptions {
   bool pending = false;
 };
 
+/// A backup whose events, if it has any, come next.
+struct OpenBackup {
+  FrameReader frames;
+  backup::Backup backup;
+};
+
 /// Reads the backup with its secrets, unless they are not wanted.
-Result<backup::Backup> read_backup(const RestoreOptions& o, const fs::path& file) {
-  const auto bytes = hal::read_regular_file(file, backup::kMostBytes);
-  if (!bytes) return tl::unexpected(bytes.error());
-  auto read = backup::parse_backup(*bytes);
+Result<OpenBackup> open_backup(const RestoreOptions& o, const fs::path& file) {
+  auto frames = backup::open_frames(file);
+  if (!frames) return tl::unexpected(frames.error());
+  auto read = backup::read_backup(*frames);
   if (read && read->backup.manifest.secrets == backup::Secrets::Encrypted && !o.without_secrets) {
     const auto passphrase = backup::passphrase(o.passphrase_file);
     if (!passphrase) return tl::unexpected(passphrase.error());
@@ -56,38 +65,53 @@ Result<backup::Backup> read_backup(const RestoreOptions& o, const fs::path& file
     if (!opened) read = tl::unexpected(opened.error());
   }
   if (!read) return fail(file.string() + ": " + backup::shown(read.error().message));
-  return std::move(read->backup);
+  if (o.without_events) read->backup.manifest.events.clear();
+  return OpenBackup{std::move(*frames), std::move(read->backup)};
 }
 
-/// Replaces the files, now or at the start of orbwatchd. Returns a line about it.
-Result<std::string> replaced(const RestoreOptions& o, const backup::Restoration& restoration) {
+/// Adds the events of the backup to the recordings. orbwatchd may run.
+Result<> restore_events(OpenBackup& opened, const backup::Restoration& restoration,
+                        backup::DiskChanges& disk) {
+  if (restoration.events.empty()) return {};
+  return place_events(opened.frames, restoration.events, restoration.event_place, disk)
+      .map_error([](const Error& error) {
+        return Error{"not all events are restored, and nothing else: " +
+                     backup::shown(error.message) + "; --without-events leaves them out"};
+      });
+}
+
+/// Adds the events, and replaces the files, now or at the start of orbwatchd. Returns a line about
+/// it.
+Result<std::string> replaced(const RestoreOptions& o, OpenBackup& opened,
+                             const backup::Restoration& restoration) {
   backup::DiskChanges disk;
   if (o.at_start) {
-    return keep_pending(restoration.places, restoration.files, {}, disk).map([] {
-      return std::string("restored when orbwatchd starts next\n");
-    });
+    return restore_events(opened, restoration, disk)
+        .and_then([&] { return keep_pending(restoration.places, restoration.files, {}, disk); })
+        .map([] { return std::string("restored when orbwatchd starts next\n"); });
   }
   const auto reserved = backup::exclude_daemon(restoration.places);
   if (!reserved) return tl::unexpected(reserved.error());
-  return replace_files(restoration.places, restoration.files, disk).map([] {
-    return std::string("restored; start it: systemctl start orbwatch\n");
-  });
+  return restore_events(opened, restoration, disk)
+      .and_then([&] { return replace_files(restoration.places, restoration.files, disk); })
+      .map([] { return std::string("restored; start it: systemctl start orbwatch\n"); });
 }
 
 CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
                                const fs::path& config) {
-  const auto backup = read_backup(o, file);
-  if (!backup) return tl::unexpected(backup.error());
+  auto opened = open_backup(o, file);
+  if (!opened) return tl::unexpected(opened.error());
+  const backup::Backup& backup = opened->backup;
   const auto undone =
       o.check || o.at_start ? Result<std::string>("") : backup::undo_interrupted(config);
   if (!undone) return tl::unexpected(undone.error());
-  const auto restoration = backup::restoration_of(*backup, config, o.cameras);
+  const auto restoration = backup::restoration_of(backup, config, o.cameras);
   if (!restoration) return fail(file.string() + ": " + backup::shown(restoration.error().message));
   const std::string text =
-      o.json ? restore_json(*backup, *restoration) : *undone + restore_text(*backup, *restoration);
+      o.json ? restore_json(backup, *restoration) : *undone + restore_text(backup, *restoration);
   if (o.check) return text;
-  const auto done = replaced(o, *restoration);
-  if (!done) return tl::unexpected(done.error());
+  const auto done = replaced(o, *opened, *restoration);
+  if (!done) return fail(file.string() + ": " + done.error().message);
   return o.json ? text : text + *done;
 }
 
@@ -134,6 +158,8 @@ CliResult<std::string> restore_command(const Arguments& arguments) {
                     text_option(o.passphrase_file)},
                    {"without-secrets", 0, "", "keep this device's users, certificates and keys",
                     flag_option(o.without_secrets)},
+                   {"without-events", 0, "", "leave out the kept events",
+                    flag_option(o.without_events)},
                    {"check", 0, "", "only show what would change", flag_option(o.check)},
                    {"json", 0, "", "show it as JSON", flag_option(o.json)},
                    {"at-start", 0, "", "replace the files when orbwatchd starts next; it may run",

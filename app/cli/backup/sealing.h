@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,5 +22,7 @@ Result<std::string> unseal(std::string_view sealed, std::string_view passphrase,
 
 /// SHA-256 in hexadecimal digits.
 std::string sha256(std::string_view bytes);
+/// The same of a file. Error: it cannot be read.
+Result<std::string> sha256_of(const std::filesystem::path& file);
 
 }  // namespace orbwatch::app::cli::backup

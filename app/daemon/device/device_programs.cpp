@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/daemon/device/device_programs.h"
 
+#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +18,8 @@ constexpr const char* kSupport = "support.tar.zst";
 constexpr const char* kBackup = "backup.tar.zst";
 constexpr const char* kUpload = "upload.tar.zst";
 constexpr const char* kFigures = "figures";
+/// Time to copy kept events, on a slow card.
+constexpr std::chrono::minutes kEventsTime{10};
 
 }  // namespace
 
@@ -61,11 +64,19 @@ Result<DeviceFiles::Made> DevicePrograms::support(const Figures& figures, bool p
   return made;
 }
 
-Result<DeviceFiles::Made> DevicePrograms::backup(const std::optional<std::string>& passphrase) {
+Result<DeviceFiles::Made> DevicePrograms::backup(const std::optional<std::string>& passphrase,
+                                                 bool events) {
   const std::lock_guard lock(mutex_);
-  if (!passphrase) return make(kBackup, {.arguments = {"backup", "--without-secrets"}});
-  return make(kBackup, {.arguments = {"backup", "--passphrase-file", kChildSecret},
-                        .secret = *passphrase + "\n"});
+  CliCall call{.arguments = {"backup"}};
+  if (passphrase) {
+    call.arguments.insert(call.arguments.end(), {"--passphrase-file", kChildSecret});
+    call.secret = *passphrase + "\n";
+  } else {
+    call.arguments.emplace_back("--without-secrets");
+  }
+  if (events) call.arguments.emplace_back("--with-events");
+  if (events) call.time = kEventsTime;
+  return make(kBackup, std::move(call));
 }
 
 Result<std::uint64_t> DevicePrograms::upload(std::uint64_t offset, std::string_view bytes) {
@@ -73,7 +84,12 @@ Result<std::uint64_t> DevicePrograms::upload(std::uint64_t offset, std::string_v
   if (auto made = make_owners_folder(folder_); !made) return tl::unexpected(made.error());
   if (offset > kMostUpload || bytes.size() > kMostUpload - offset) {
     return fail("the file is larger than " + std::to_string(kMostUpload >> 20) +
-                " MiB, which no backup is");
+                " MiB; restore it by `orbwatch restore`");
+  }
+  std::error_code error;
+  const std::uintmax_t free = fs::space(folder_, error).available;
+  if (!error && offset + bytes.size() > kSmallUpload && free < kSmallUpload) {
+    return fail("the disk is full; restore it by `orbwatch restore`, from another disk");
   }
   return add_uploaded(folder_ / kUpload, offset, bytes);
 }
@@ -83,7 +99,7 @@ Result<std::string> DevicePrograms::restored(const Restore& restore, const char*
   const fs::path file = folder_ / kUpload;
   std::error_code none;
   if (!fs::exists(file, none)) return fail("no backup was uploaded");
-  CliCall call{.arguments = {"restore", file.string(), "--json", way}};
+  CliCall call{.arguments = {"restore", file.string(), "--json", way}, .time = kEventsTime};
   for (const CameraAddress& camera : restore.cameras) {
     call.arguments.insert(call.arguments.end(), {"--camera", camera.camera + "=" + camera.address});
   }

@@ -19,8 +19,10 @@ namespace orbwatch::app::daemon {
 /// folder, mode 0700, which is emptied at the beginning.
 class DevicePrograms final : public DeviceFiles {
  public:
-  /// Largest upload: unpacked, a backup is limited to twice as much.
-  static constexpr std::uint64_t kMostUpload = std::uint64_t{64} << 20;
+  /// Largest upload: a backup with kept events.
+  static constexpr std::uint64_t kMostUpload = std::uint64_t{2} << 30;
+  /// Larger uploads leave as much on the disk.
+  static constexpr std::uint64_t kSmallUpload = std::uint64_t{64} << 20;
 
   /// `config` is the configuration file, `state` its state folder. `restart` is called on any
   /// thread.
@@ -28,7 +30,7 @@ class DevicePrograms final : public DeviceFiles {
                  std::function<void()> restart);
 
   Result<Made> support(const Figures& figures, bool pictures) override;
-  Result<Made> backup(const std::optional<std::string>& passphrase) override;
+  Result<Made> backup(const std::optional<std::string>& passphrase, bool events) override;
   Result<std::uint64_t> upload(std::uint64_t offset, std::string_view bytes) override;
   Result<std::string> check(const Restore& restore) override;
   Result<std::string> restore(const Restore& restore) override;

@@ -42,7 +42,8 @@ class DeviceFiles {
   /// See `orbwatch support`. `pictures`: also pictures.
   virtual Result<Made> support(const Figures& figures, bool pictures) = 0;
 
-  virtual Result<Made> backup(const std::optional<std::string>& passphrase) = 0;
+  /// See `orbwatch backup`. Without a passphrase secrets are left out. `events`: also kept events.
+  virtual Result<Made> backup(const std::optional<std::string>& passphrase, bool events) = 0;
 
   /// Adds bytes to the backup that is to be restored; at offset 0 a new one begins. Returns its
   /// size. Errors: another offset than its size; larger than a backup can be; the disk.

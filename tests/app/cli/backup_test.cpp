@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 
 #include "app/cli/archive/tar.h"
@@ -13,6 +14,7 @@
 #include "tests/app/cli/backup/site.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/files/machine_files.h"
+#include "tests/support/service_user.h"
 
 /// Runs `orbwatch backup` on one device and `orbwatch restore` on another, like an installer.
 namespace orbwatch::tests {
@@ -81,6 +83,50 @@ TEST_F(BackupProgram, AnotherDeviceTakesOver) {
                           HasSubstr("systemctl start orbwatch")));
 }
 
+TEST_F(BackupProgram, KeptEventsGoAlongWhenAskedFor) {
+  const std::string kept = "recordings/events/20261128T092200.125Z-alarm/";
+  write_file(path("old/" + kept + "event.mcap"), std::string(100'000, 'm'));
+  write_file(path("old/" + kept + "pinned"), "");
+  write_file(path("old/recordings/events/20261128T092300.000Z-alarm/event.mcap"), "not kept");
+  std::ofstream(path("old/site.toml"), std::ios::app) << "[recorder]\nfolder = \"recordings\"\n";
+  ASSERT_EQ(back_up({"--without-secrets"}), 0) << said;
+  ASSERT_EQ(restore({"--check"}), 0) << said;
+  EXPECT_THAT(said, Not(HasSubstr("092200")));
+  ASSERT_EQ(back_up({"--without-secrets", "--with-events"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("event      20261128T092200.125Z-alarm, 100000 bytes"));
+  EXPECT_THAT(said, Not(HasSubstr("092300")));
+  ASSERT_EQ(restore({"--check", "--json"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr(R"({"file":"events/20261128T092200.125Z-alarm","change":"new"})"));
+  ASSERT_EQ(restore({"--without-events"}), 0) << said;
+  EXPECT_FALSE(std::filesystem::exists(path("new/recordings")));
+  ASSERT_EQ(restore(), 0) << said;
+  EXPECT_EQ(states_below(path("new/recordings")).size(), 2U);
+  EXPECT_EQ(states_below(path("new"))[kept + "event.mcap"].first, std::string(100'000, 'm'));
+  ASSERT_EQ(restore({"--check"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("same     events/20261128T092200.125Z-alarm"));
+
+  const auto bytes = hal::read_regular_file(path("backup.tar.zst"));
+  ASSERT_TRUE(bytes);
+  std::filesystem::remove_all(path("new"));
+  std::filesystem::create_directories(path("new"));
+  write("backup.tar.zst", bytes->substr(0, bytes->size() - 10));
+  EXPECT_EQ(restore(), 1);
+  EXPECT_THAT(said, HasSubstr("not all events are restored, and nothing else: is cut off"));
+  EXPECT_TRUE(states_below(path("new")).empty());
+  ASSERT_EQ(restore({"--without-events"}), 0) << said;
+}
+
+TEST_F(BackupProgram, AFileThatTheUserMayNotReadEndsItWithAdvice) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  std::filesystem::permissions(path("old/recipes/one.toml"), std::filesystem::perms(0600));
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0777));
+  EXPECT_TRUE(as_user(kStranger, 077, [&] {
+    const int code = back_up({"--without-secrets"});
+    return code == 1 && said.find("Permission denied; run it as root: sudo") != std::string::npos;
+  }));
+  EXPECT_FALSE(std::filesystem::exists(path("backup.tar.zst")));
+}
+
 TEST_F(BackupProgram, CamerasOfTheNewDeviceAreSetByOption) {
   ASSERT_EQ(back_up(with_passphrase()), 0) << said;
   auto options = with_passphrase();
@@ -127,7 +173,7 @@ TEST_F(BackupProgram, WhatCannotBeRestoredChangesNothing) {
   EXPECT_THAT(said, HasSubstr("stop it first: systemctl stop orbwatch"));
   write("backup.tar.zst", std::string("hostile"));
   EXPECT_EQ(restore(), 1);
-  EXPECT_THAT(said, HasSubstr("backup.tar.zst: is not compressed"));
+  EXPECT_THAT(said, HasSubstr("backup.tar.zst: is damaged, or not compressed"));
   EXPECT_TRUE(states_below(path("new")).empty());
 }
 
@@ -231,7 +277,13 @@ TEST_F(BackupProgram, AResetAtTheStartRemovesWhatTheDaemonWritesAtItsEnd) {
 }
 
 TEST_F(BackupProgram, ABackupOnTheBootPartitionIsRestoredOnce) {
-  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  const std::string kept = "recordings/events/20261128T092200.125Z-alarm/";
+  write_file(path("old/" + kept + "event.mcap"), "recording");
+  write_file(path("old/" + kept + "pinned"), "");
+  std::ofstream(path("old/site.toml"), std::ios::app) << "[recorder]\nfolder = \"recordings\"\n";
+  auto options = with_passphrase();
+  options.emplace_back("--with-events");
+  ASSERT_EQ(back_up(options), 0) << said;
   const std::filesystem::path boot = path("boot");
   std::filesystem::create_directories(boot);
   std::filesystem::copy(path("backup.tar.zst"), boot / "restore.tar.zst");
@@ -242,6 +294,7 @@ TEST_F(BackupProgram, ABackupOnTheBootPartitionIsRestoredOnce) {
   EXPECT_THAT(said, HasSubstr("restored from " + boot.string()));
   EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "hash-of-kim");
   EXPECT_THAT(states_below(path("new"))["site.toml"].first, HasSubstr("camera = \"SN-9\""));
+  EXPECT_EQ(states_below(path("new"))[kept + "event.mcap"].first, "recording");
   write_file(path("new-state/users.json"), "changed since", 0600);
   ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
   EXPECT_EQ(said, "");

@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
-#include "app/cli/archive/compression.h"
 #include "app/cli/archive/tar.h"
 #include "hal/regular_file.h"
+#include "tests/app/cli/archive/frames.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/files/machine_files.h"
 

@@ -25,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kUnfinished = ".unfinished", kDeleted = ".deleted";
+constexpr std::string_view kUnfinished = ".unfinished", kDeleted = ".deleted",
+                           kRestoring = ".restoring";
 
 tl::unexpected<Error> failure(const fs::path& path, const std::error_code& error) {
   return fail(path.string() + ": " + error.message());
@@ -97,7 +98,9 @@ Result<> EventFolder::prepare() {
     folders.push_back(it->path());
   }
   for (const fs::path& folder : folders) {
-    if (!name_before(folder, kDeleted).empty()) fs::remove_all(folder, error);
+    const bool is_doomed =
+        !name_before(folder, kDeleted).empty() || !name_before(folder, kRestoring).empty();
+    if (is_doomed) fs::remove_all(folder, error);
     if (name_before(folder, kUnfinished).empty() || given_up_.contains(folder)) continue;
     const auto recovered = recover(folder);
     if (!recovered && is_full(root_)) return recovered;
@@ -173,9 +176,13 @@ Result<fs::path> EventFolder::begin(Utc triggered, TriggerKind trigger) const {
   return folder;
 }
 
+fs::path EventFolder::restoring(const std::string& name) const {
+  return root_ / (name + kRestoring.data());
+}
+
 Result<> EventFolder::finish(const fs::path& unfinished) const {
   std::error_code error;
-  fs::rename(unfinished, root_ / name_before(unfinished, kUnfinished), error);
+  fs::rename(unfinished, root_ / unfinished.stem(), error);
   if (error) return failure(unfinished, error);
   return hal::sync_folder(root_);
 }

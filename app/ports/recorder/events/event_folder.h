@@ -31,7 +31,8 @@ struct StoredEvent {
 
 /// The folder `events` of recordings: one folder for each event, which is the truth; no index
 /// is stored beside it. An event that is being recorded has the name NAME.unfinished, one that is
-/// being deleted NAME.deleted. What has other names is not touched. Thread-bound; waits for the
+/// being deleted NAME.deleted, one that is being restored NAME.restoring. What has other names is
+/// not touched. Thread-bound; waits for the
 /// disk.
 class EventFolder {
  public:
@@ -39,7 +40,8 @@ class EventFolder {
 
   const std::filesystem::path& path() const { return root_; }
 
-  /// Finishes events whose recorder ended early, and ends deletions. What cannot be finished is
+  /// Finishes events whose recorder ended early, ends deletions, and deletes what is not wholly
+  /// restored. What cannot be finished is
   /// logged once and stays. Errors: the folder; a full disk, for which they wait.
   Result<> prepare();
 
@@ -51,7 +53,10 @@ class EventFolder {
 
   /// Makes the folder of an unfinished event, and that of all events. Errors: of the disk.
   Result<std::filesystem::path> begin(Utc triggered, TriggerKind trigger) const;
-  /// Gives the folder its name, which survives a power cut.
+  /// Folder in which an event of this name is to be restored; not made.
+  std::filesystem::path restoring(const std::string& name) const;
+  /// Gives the folder of begin() or restoring() its name, which survives a power cut. Error also:
+  /// there is such an event.
   Result<> finish(const std::filesystem::path& unfinished) const;
 
   /// Deletes an event, whole or not at all.

@@ -61,8 +61,9 @@ Answered<MadeAnswer> DeviceDesk::make_support(Change<SupportBody>& change) {
 
 Answered<MadeAnswer> DeviceDesk::make_backup(Change<BackupBody>& change) {
   change.after = change.body.passphrase ? "secrets encrypted" : "without secrets";
+  if (change.body.events) change.after += ", with events";
   if (!device_) return refuse(404, kNoDevice);
-  return keep(DeviceFile::Backup, device_->backup(change.body.passphrase));
+  return keep(DeviceFile::Backup, device_->backup(change.body.passphrase, change.body.events));
 }
 
 void DeviceDesk::download(const DeviceFileQuery& query, const ExchangePtr& exchange) {

@@ -39,11 +39,13 @@ void visit(Visitor& v, SupportBody& body) {
 
 struct BackupBody {
   std::optional<std::string> passphrase;
+  bool events = false;
 };
 template <class Visitor>
 void visit(Visitor& v, BackupBody& body) {
   v.required("passphrase", body.passphrase,
              "Encrypts users, certificates and keys; null: they are left out");
+  v.optional("events", body.events, "Also the recorder's events that are kept");
 }
 
 struct MadeAnswer {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/cli/archive/compression.h"
+#include "tests/app/cli/archive/frames.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
@@ -148,6 +149,47 @@ TEST(Compression, KeepsBytesAndRefusesWhatIsDamaged) {
     EXPECT_TRUE(!read || *read == text) << at;
   }
   EXPECT_FALSE(decompressed(*frame + "x", text.size()));
+}
+
+TEST(Frames, KeepBytesOfAnyLengthInAnyPieces) {
+  std::mt19937 random(3);
+  std::string text(1'000'000, '\0');
+  for (char& c : text) c = static_cast<char>(random() % 7);
+  for (const std::size_t piece : {1UL, 777UL, 131'072UL, text.size()}) {
+    std::string frames;
+    for (int n = 0; n < 2; ++n) {
+      FrameWriter writer([&](std::string_view bytes) -> Result<> {
+        frames += bytes;
+        return {};
+      });
+      for (std::size_t at = 0; at < text.size(); at += piece * 100) {
+        ASSERT_TRUE(writer.add(std::string_view(text).substr(at, piece * 100)));
+      }
+      ASSERT_TRUE(writer.finish());
+    }
+    FrameReader reader = frames_of(frames, piece);
+    for (int n = 0; n < 2; ++n) {
+      ASSERT_TRUE(reader.next().value_or(false));
+      std::string part(10, '\0');
+      ASSERT_EQ(reader.read(part).value_or(0), part.size());
+      EXPECT_EQ(part + reader.read_all(text.size()).value_or(""), text);
+    }
+    EXPECT_FALSE(reader.next().value_or(true));
+  }
+}
+
+TEST(Frames, AFrameIsReadToItsEndBeforeTheNext) {
+  FrameReader reader = frames_of(compressed("text").value_or(""));
+  ASSERT_TRUE(reader.next().value_or(false));
+  EXPECT_FALSE(reader.next());
+}
+
+TEST(Frames, ErrorsOfTheSinkAreThoseOfTheWriter) {
+  FrameWriter writer([](std::string_view) -> Result<> { return fail("full"); });
+  auto written = writer.add(std::string(10, 'x'));
+  if (written) written = writer.finish();
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message, "full");
 }
 
 TEST(Compression, ASmallFileDoesNotBecomeALargeOne) {

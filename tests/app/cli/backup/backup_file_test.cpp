@@ -168,8 +168,8 @@ TEST(BackupFile, FilesOutsideOfTheirPlacesAreRefused) {
 }
 
 TEST(BackupFile, ANewerFormatIsRefusedAndMoreMembersAreNot) {
-  EXPECT_THAT(refusal_of(packed(with_manifest("\"orbwatch_backup\": 1", "\"orbwatch_backup\": 2"))),
-              HasSubstr("of a newer orbwatch, of format 2; this one reads format 1"));
+  EXPECT_THAT(refusal_of(packed(with_manifest("\"orbwatch_backup\": 1", "\"orbwatch_backup\": 3"))),
+              HasSubstr("of a newer orbwatch, of format 3; this one reads format 2"));
   EXPECT_TRUE(packed(with_manifest("\"version\"", "\"more\": [1], \"version\"")));
   EXPECT_TRUE(packed(with_manifest("\"0.1.2\"", "\"0.0.1\""))) << "an older product";
   for (const auto& [part, instead] : std::vector<std::pair<std::string, std::string>>{

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/cli/backup/collect.h"
+#include "tests/app/cli/archive/frames.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::cli::backup {
@@ -36,6 +37,12 @@ inline void write_file(const std::filesystem::path& file, const std::string& byt
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << bytes;
   EXPECT_EQ(::chmod(file.c_str(), mode), 0);
+}
+
+/// Reads a backup in memory.
+inline Result<ReadBackup> parse_backup(const std::string& bytes) {
+  FrameReader frames = frames_of(bytes);
+  return read_backup(frames);
 }
 
 /// A device with folders for configuration and state.

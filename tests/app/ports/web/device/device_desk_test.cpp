@@ -29,9 +29,9 @@ class MadeUpDevice : public DeviceFiles {
     for (const auto& [name, text] : figures) names += name + " ";
     return made("support", names);
   }
-  Result<Made> backup(const std::optional<std::string>& passphrase) override {
+  Result<Made> backup(const std::optional<std::string>& passphrase, bool events) override {
     if (passphrase && passphrase->size() < 10) return fail("the passphrase is too short");
-    return made("backup", passphrase ? "sealed" : "open");
+    return made("backup", std::string(passphrase ? "sealed" : "open") + (events ? "+events" : ""));
   }
   Result<std::uint64_t> upload(std::uint64_t offset, std::string_view bytes) override {
     const std::lock_guard lock(mutex_);
@@ -183,11 +183,14 @@ TEST_F(Device, BackupHasSecretsOnlyWithAPassphrase) {
   EXPECT_EQ(file("backup").body, "open");
   ASSERT_EQ(ask("make_backup", {{"passphrase", "correct horse battery"}}).status, 200);
   EXPECT_EQ(file("backup").body, "sealed");
+  ASSERT_EQ(ask("make_backup", {{"passphrase", nullptr}, {"events", true}}).status, 200);
+  EXPECT_EQ(file("backup").body, "open+events");
   const Answer refused = ask("make_backup", {{"passphrase", "short"}});
   EXPECT_EQ(refused.status, 409);
   EXPECT_THAT(refused.body, HasSubstr("too short"));
   EXPECT_THAT(audited("make_backup"),
-              testing::ElementsAre("without secrets", "secrets encrypted", "secrets encrypted"));
+              testing::ElementsAre("without secrets", "secrets encrypted",
+                                   "without secrets, with events", "secrets encrypted"));
 }
 
 TEST_F(Device, BackupIsUploadedInPartsCheckedAndRestored) {

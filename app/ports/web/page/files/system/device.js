@@ -79,8 +79,9 @@ export class Device {
     const support = new MadeFile("support", "api/v1/make_support_file",
       [checkBox(device.support.pictures, "pictures")], (values) => ({ pictures: values.has("pictures") }));
     // An empty passphrase leaves the secrets out.
-    const backup = new MadeFile("backup", "api/v1/make_backup", passphraseFields(device.passphrase, "new-password"),
-      (values) => ({ passphrase: values.get("passphrase") || null }));
+    const backup = new MadeFile("backup", "api/v1/make_backup",
+      [...passphraseFields(device.passphrase, "new-password"), checkBox(device.backup.events, "events")],
+      (values) => ({ passphrase: values.get("passphrase") || null, events: values.has("events") }));
     this.card.append(...[support, backup, new Restore(), new Reset(),
       new Update(() => isShown() && this.card.isOpen)].map((part) => part.root));
     this.root = this.card.root;

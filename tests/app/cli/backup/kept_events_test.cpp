@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/backup/kept_events.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/cli/archive/compression.h"
+#include "app/cli/archive/tar.h"
+#include "app/ports/recorder/events/event_summary.h"
+#include "tests/app/cli/backup/site.h"
+
+namespace orbwatch::app::cli::backup {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kFirst = "20261128T092200.125Z-alarm";
+constexpr const char* kSecond = "20261128T092300.000Z-command-2";
+
+class KeptEvents : public testing::Test {
+ protected:
+  KeptEvents() {
+    write_file(old / kFirst / recorder::kEventFile, std::string(300'000, 'm'));
+    write_file(old / kFirst / recorder::kEventSummary, "{}");
+    write_file(old / kFirst / recorder::kEventPicture, "picture");
+    write_file(old / kFirst / recorder::kEventPin, "");
+    write_file(old / kSecond / recorder::kEventFile, std::string(512, 'n'));
+    write_file(old / kSecond / recorder::kEventPin, "");
+    write_file(old / "20261128T092400.000Z-alarm" / recorder::kEventFile, "not kept");
+    write_file(old / "20261128T092500.000Z-alarm.unfinished" / recorder::kEventPin, "");
+    fs::create_directories(folder / "new");
+  }
+
+  std::vector<recorder::StoredEvent> kept() const {
+    auto events = kept_events(folder / "old");
+    EXPECT_TRUE(events) << events.error().message;
+    return events.value_or(std::vector<recorder::StoredEvent>());
+  }
+  std::string frame() const {
+    std::string bytes;
+    EXPECT_TRUE(write_events(kept(), [&](std::string_view part) -> Result<> {
+      bytes += part;
+      return {};
+    }));
+    return bytes;
+  }
+  static std::string frame_of(const Archive& archive) {
+    return tar_of(archive, {})
+        .and_then([](const std::string& tar) { return compressed(tar); })
+        .value_or("");
+  }
+  /// Restores a frame on the new device; returns the reason against it.
+  std::string place(const std::string& bytes, const std::vector<ManifestEvent>& events,
+                    std::uint64_t reserve = 0) {
+    FrameReader frames = frames_of(bytes);
+    if (!frames.next().value_or(false)) return "no frame";
+    DiskChanges disk;
+    const auto placed = place_events(frames, events, {folder / "new", reserve}, disk);
+    return placed ? "" : placed.error().message;
+  }
+  /// Names below the events of the new device.
+  std::vector<std::string> restored() const {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder / "new/events", none)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+
+  tests::TemporaryFolder folder;
+  const fs::path old = folder / "old/events";
+};
+
+TEST_F(KeptEvents, AreRestoredWithAllTheirFiles) {
+  const auto events = manifest_events(kept());
+  EXPECT_THAT(events, ElementsAre(ManifestEvent{kFirst, 300'009}, ManifestEvent{kSecond, 512}));
+  EXPECT_EQ(missing_events(events, {folder / "new", 0}).size(), 2U);
+  EXPECT_EQ(place(frame(), events), "");
+  EXPECT_THAT(restored(), ElementsAre(kFirst, kSecond));
+  for (const char* event : {kFirst, kSecond}) {
+    FileStates was = states_below(old / event), is = states_below(folder / "new/events" / event);
+    for (auto* states : {&was, &is}) {
+      for (auto& [name, state] : *states) state.second = 0;  // the mode is that of the folder
+    }
+    EXPECT_EQ(is, was);
+  }
+  EXPECT_TRUE(missing_events(events, {folder / "new", 0}).empty());
+}
+
+TEST_F(KeptEvents, ThatAreThereStayAsTheyAre) {
+  write_file(folder / "new/events" / kFirst / recorder::kEventFile, "another");
+  EXPECT_EQ(place(frame(), manifest_events(kept())), "");
+  EXPECT_EQ(states_below(folder / "new/events" / kFirst).at(recorder::kEventFile).first, "another");
+  EXPECT_THAT(restored(), ElementsAre(kFirst, kSecond));
+}
+
+TEST_F(KeptEvents, OfAFrameThatIsCutOffAppearAsAWholeOrNotAtAll) {
+  const std::string whole = frame();
+  const auto events = manifest_events(kept());
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    EXPECT_NE(place(whole.substr(0, size), events), "") << size;
+    for (const std::string& name : restored()) {
+      const auto states = states_below(folder / "new/events" / name);
+      EXPECT_EQ(states.size(), states_below(old / name).size()) << name;
+    }
+    fs::remove_all(folder / "new/events");
+  }
+}
+
+TEST_F(KeptEvents, OfAnotherFormAreRefused) {
+  const std::string event = std::string("events/") + kFirst + "/";
+  const std::vector<ManifestEvent> stated{{kFirst, 4}};
+  const ArchivedFile recording{event + recorder::kEventFile, "mcap"};
+  ASSERT_EQ(place(frame_of({recording}), stated), "");
+  fs::remove_all(folder / "new/events");
+  const std::vector<Archive> wrong{
+      {},
+      {{event + recorder::kEventFile, "mca"}},
+      {{event + recorder::kEventFile, "mcap."}},
+      {{event + recorder::kEventSummary, "json"}},
+      {{event + "other.txt", "mcap"}},
+      {{event + "sub/event.mcap", "mcap"}},
+      {{std::string("events/") + kSecond + "/event.mcap", "mcap"}},
+      {{"event.mcap", "mcap"}},
+      {recording, {event + recorder::kEventPicture, "x"}},
+      {recording, {std::string("events/") + kSecond + "/event.mcap", ""}},
+      {{event + recorder::kEventPin, ""}, {event + recorder::kEventPin, ""}, recording}};
+  for (std::size_t n = 0; n < wrong.size(); ++n) {
+    EXPECT_THAT(place(frame_of(wrong[n]), stated), HasSubstr("damaged")) << n;
+    fs::remove_all(folder / "new/events");
+  }
+  EXPECT_THAT(place(frame_of({recording}) + frame_of({recording}), stated), HasSubstr("damaged"));
+}
+
+TEST_F(KeptEvents, LeaveTheReserveOfTheDisk) {
+  EXPECT_THAT(place(frame(), manifest_events(kept()), std::uint64_t{1} << 60),
+              HasSubstr("has no room for the events: 0 MiB beside reserve_mib are needed"));
+  EXPECT_THAT(place(frame(), {{kFirst, ~std::uint64_t{0}}, {kSecond, 1}}), HasSubstr("too large"));
+  EXPECT_THAT(restored(), ElementsAre());
+}
+
+TEST_F(KeptEvents, AreNotLedElsewhereByALink) {
+  fs::create_directories(folder / "elsewhere");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "new/events");
+  EXPECT_THAT(place(frame(), manifest_events(kept())), HasSubstr("is a link"));
+  EXPECT_TRUE(fs::is_empty(folder / "elsewhere"));
+}
+
+TEST_F(KeptEvents, ThatChangeMeanwhileEndTheBackup) {
+  auto events = kept();
+  fs::remove(old / kSecond / recorder::kEventFile);
+  fs::create_directory(old / kSecond / recorder::kEventFile);
+  const auto written = write_events(events, [](std::string_view) { return Result<>(); });
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message, HasSubstr("is not a regular file"));
+}
+
+TEST(KeptEventsList, IsEmptyWithoutRecordings) {
+  EXPECT_EQ(kept_events("")->size(), 0U);
+  EXPECT_EQ(kept_events("/nonexistent/recordings")->size(), 0U);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::cli::backup
