@@ -101,8 +101,13 @@ class WholeAppliance(Appliance):
         return json.loads(content)
 
     def event(self):
-        """Name of the oldest event whose recording has ended."""
-        return next((one["name"] for one in reversed(self.get("recordings")["events"]) if one["is_finished"]), None)
+        """Name of the oldest event whose recording has ended; records one if there is none."""
+        def events():
+            return self.get("recordings")["events"]
+
+        if not events():
+            self.ask("POST", "/api/v1/command/record_event", body={})
+        return eventually("an event", lambda: [one["name"] for one in events() if one["is_finished"]])[-1]
 
     def export(self):
         """Number of an export whose file can be fetched."""

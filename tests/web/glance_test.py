@@ -11,7 +11,7 @@ import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import PATIENCE_S, eventually
+from appliance import ALARM_S, PATIENCE_S, eventually
 from page_case import ZONE, PageCase
 
 # Levels of alarms that are not warnings, and states that need nobody, by proc/signals/alarm.h.
@@ -88,7 +88,7 @@ class Glance(PageCase):
     def test_a_phone_cuts_no_value_off(self):
         self.show_process(390, 844)
         eventually("an event of an alarm", lambda: self.browser.find_elements(
-            By.CSS_SELECTOR, "#alarm-history tbody tr"))
+            By.CSS_SELECTOR, "#alarm-history tbody tr"), ALARM_S)
         self.browser.keep_picture("glance-phone")
         self.open_all("process")
         eventually("all signals", lambda: len(self.boxes("#charts .figures td.figure")) > 100)
@@ -153,7 +153,7 @@ class Glance(PageCase):
             own = [self.expected_mark([alarm]) for alarm in alarms]
             return any(own) and shown == [self.expected_mark(alarms), "", *(f"key {mark}" for mark in own)]
 
-        eventually("the colours of the alarms", marked)
+        eventually("the colours of the alarms", marked, ALARM_S)
         self.browser.keep_picture("glance-alarm")
         colour = self.browser.execute_script("""
             const line = document.querySelector('#regions polyline.warning, #regions polyline.alarm');

@@ -7,7 +7,7 @@ import zoneinfo
 
 from selenium.webdriver.common.by import By
 
-from appliance import Appliance, eventually
+from appliance import ALARM_S, Appliance, eventually
 from browser import Browser
 
 ZONE = "Australia/Eucla"  # 8:45 h ahead of UTC
@@ -66,7 +66,7 @@ class PageCase(unittest.TestCase):
                   .then((all) => done([shown, all[name].map(({ time }) => time)]));""", path, name, table)
             return shown and set(shown) <= {local(time) for time in stated}
 
-        eventually(f"local times of {path}", agree)
+        eventually(f"local times of {path}", agree, ALARM_S)
         self.assertIn(ZONE, self.browser.text(f"{table} thead"))
 
     def expect_fits_its_width(self):

@@ -11,7 +11,7 @@ import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import PATIENCE_S, Appliance, eventually
+from appliance import ALARM_S, PATIENCE_S, Appliance, eventually
 from browser import module_address
 from page_case import PageCase
 
@@ -105,7 +105,7 @@ class Page(PageCase):
 
         self.open("process")
         eventually("an alarm waits for somebody",
-                   lambda: any("not acknowledged" in state for state in states()))
+                   lambda: any("not acknowledged" in state for state in states()), ALARM_S)
         done = self.appliance.status()["web"]["commands_done"]
         self.browser.keep_picture("process")
         eventually("the header and the title name it", lambda: (
