@@ -17,7 +17,7 @@ export const device = {
     title: "Sicherung",
     help: "Konfiguration, Rezepte, Ausrichtungen, Benutzer, Zertifikate und Schlüssel in einer Datei, mit der ein " +
       "Ersatzgerät weiterarbeitet. Ohne Passphrase fehlen Benutzer, Zertifikate und Schlüssel.",
-    events: "mit den behaltenen Ereignissen des Rekorders",
+    events: "mit den behaltenen Ereignissen des Rekorders, unverschlüsselt",
     make: "Sicherung erstellen",
   },
   restore: {

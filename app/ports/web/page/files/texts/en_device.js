@@ -17,7 +17,7 @@ export const device = {
     title: "Backup",
     help: "Configuration, recipes, alignments, users, certificates and keys in one file, from which a " +
       "replacement takes over. Without a passphrase users, certificates and keys are left out.",
-    events: "with the recorder's kept events",
+    events: "with the recorder's kept events, which are not encrypted",
     make: "Make a backup",
   },
   restore: {
