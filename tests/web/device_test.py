@@ -6,6 +6,7 @@ Folders: app/ports/web/device app/ports/web/page/files/system app/daemon/device 
 
 import json
 import pathlib
+import random
 import shutil
 import subprocess
 import tempfile
@@ -27,7 +28,7 @@ class InstalledAppliance(Appliance):
     def __init__(self):
         super().__init__()
         site = self.folder / "demo.toml"
-        self.note("# as configured")
+        self.note('[recorder]\nfolder = "recordings"')
         delivered = self.folder / "root/orbwatch/demo"
         delivered.mkdir(parents=True)
         for file in self.folder.glob("demo*.toml"):
@@ -43,7 +44,7 @@ class InstalledAppliance(Appliance):
                 'mount --bind "$0" "$1" && shift && exec "$@"', self.folder / "root", share]
 
     def note(self, line):
-        """Adds a comment to the configuration file."""
+        """Adds lines to the configuration file."""
         site = self.folder / "demo.toml"
         site.write_text(f'{site.read_text(encoding="utf-8")}{line}\n', encoding="utf-8")
 
@@ -136,6 +137,23 @@ class DevicePage(PageCase):
         self.assertEqual(secret.read_text(encoding="utf-8"), SECRET)
         self.assertIn("restore", self.appliance.audited())
         secret.unlink()
+
+    def test_kept_events_go_along_when_asked_for(self):
+        event = self.appliance.folder / "recordings/events/20260101T000000.000Z-alarm"
+        event.mkdir(parents=True)
+        self.addCleanup(shutil.rmtree, event)
+        content = random.Random(1).randbytes(6 << 20)
+        (event / "event.mcap").write_bytes(content)
+        (event / "pinned").touch()
+        self.section(1).find_element(By.NAME, "events").click()
+        archive = self.save(1, "backup")
+        shutil.rmtree(event)
+        self.choose(archive)
+        eventually("it is listed", lambda: f"events/{event.name}" in self.section(2).text)
+        self.assertFalse(event.exists(), "checking changes nothing")
+        self.restore()
+        self.assertEqual((event / "event.mcap").read_bytes(), content)
+        self.assertTrue((event / "pinned").exists())
 
     def test_file_that_is_no_backup_is_refused(self):
         for content in (b"", b"no archive", bytes(range(256)) * 400):
