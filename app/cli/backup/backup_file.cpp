@@ -4,10 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -16,7 +14,6 @@
 #include "app/cli/archive/tar.h"
 #include "app/cli/backup/sealing.h"
 #include "app/cli/backup/site_places.h"
-#include "app/ports/recorder/events/event_name.h"
 #include "hal/regular_file.h"
 #include "hal/thread/file_descriptor.h"
 
@@ -31,7 +28,7 @@ std::chrono::sys_seconds now() {
 }
 
 /// The error of errno.
-tl::unexpected<Error> not_read(const std::filesystem::path& file) {
+tl::unexpected<Error> unreadable(const std::filesystem::path& file) {
   return fail(file.string() + ": cannot be read: " + std::system_category().message(errno));
 }
 
@@ -54,15 +51,6 @@ Result<> check_file(const ArchivedFile& file, const ManifestFile& stated) {
     return {};
   }
   return fail("is damaged: " + file.name + " is not the file that was backed up");
-}
-
-/// Error: names that are not those of events, in order and once each.
-Result<> check_events(const std::vector<ManifestEvent>& events) {
-  const bool are_names = std::ranges::all_of(events, recorder::is_event_name, &ManifestEvent::name);
-  const bool are_in_order = std::ranges::adjacent_find(events, std::ranges::greater_equal(),
-                                                       &ManifestEvent::name) == events.end();
-  if (!are_names || !are_in_order) return fail("is damaged: its list of events is not right");
-  return {};
 }
 
 /// The files between the manifest and the sealed ones.
@@ -97,11 +85,11 @@ Result<std::string> backup_bytes(Backup backup, std::string_view passphrase) {
 Result<FrameReader> open_frames(const std::filesystem::path& file) {
   const auto opened = std::make_shared<const hal::FileDescriptor>(hal::open_no_link(file));
   struct stat about {};
-  if (!opened->is_open() || ::fstat(opened->get(), &about) != 0) return not_read(file);
+  if (!opened->is_open() || ::fstat(opened->get(), &about) != 0) return unreadable(file);
   if (!S_ISREG(about.st_mode)) return fail(file.string() + ": is not a regular file");
   return FrameReader([opened, file](std::span<char> bytes) -> Result<std::size_t> {
     const ssize_t count = ::read(opened->get(), bytes.data(), bytes.size());
-    if (count < 0) return not_read(file);
+    if (count < 0) return unreadable(file);
     return static_cast<std::size_t>(count);
   });
 }
@@ -132,7 +120,6 @@ Result<ReadBackup> parse_backup_tar(std::string_view tar) {
   read.manifest_text = std::move(archive->front().bytes);
   auto manifest = parse_manifest(read.manifest_text);
   if (!manifest) return tl::unexpected(manifest.error());
-  if (auto right = check_events(manifest->events); !right) return tl::unexpected(right.error());
   archive->erase(archive->begin());
   if (manifest->secrets == Secrets::Encrypted) {
     if (archive->empty() || archive->back().name != kSealedName) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -231,6 +232,14 @@ Result<> write_events(std::span<const StoredEvent> events, FrameWriter::Sink sin
   return frame.add(std::string(kEndBlocks * kTarBlock, '\0')).and_then([&] {
     return frame.finish();
   });
+}
+
+Result<> check_events(const std::vector<ManifestEvent>& events) {
+  const bool are_names = std::ranges::all_of(events, recorder::is_event_name, &ManifestEvent::name);
+  const auto out_of_order =
+      std::ranges::adjacent_find(events, std::ranges::greater_equal(), &ManifestEvent::name);
+  if (are_names && out_of_order == events.end()) return {};
+  return fail("is damaged: its list of events is not right");
 }
 
 std::vector<ManifestEvent> missing_events(const std::vector<ManifestEvent>& events,

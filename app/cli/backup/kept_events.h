@@ -36,14 +36,17 @@ Result<> check_room(const std::vector<ManifestEvent>& events, const std::filesys
 /// Writes the frame. Errors: a file that cannot be read or changes meanwhile; of the sink.
 Result<> write_events(std::span<const recorder::StoredEvent> events, FrameWriter::Sink sink);
 
-/// The events that are not there yet.
+/// Checks a list of any origin. Error: names that are not those of events, in order and once each.
+Result<> check_events(const std::vector<ManifestEvent>& events);
+
+/// The events that are not there yet, of a list that check_events() accepts.
 std::vector<ManifestEvent> missing_events(const std::vector<ManifestEvent>& events,
                                           const EventPlace& place);
 
-/// Restores the events of a frame of any origin, which next() has begun; those that are there stay
-/// as they are. Each appears as a whole or not at all, and belongs to the owner of the folder.
-/// Errors: no room; damaged, or not the events of the manifest; of the disk. Those before the error
-/// are restored.
+/// Restores the events of such a list from a frame of any origin, which next() has begun; those
+/// that are there stay as they are. Each appears as a whole or not at all, and belongs to the owner
+/// of the folder. Errors: no room; damaged, or not the events of the manifest; of the disk. Those
+/// before the error are restored.
 Result<> place_events(FrameReader& frames, const std::vector<ManifestEvent>& events,
                       const EventPlace& place, DiskChanges& disk);
 

@@ -115,6 +115,9 @@ Result<SitePlaces> present_places(const fs::path& config) {
 Result<Restoration> restoration_of(const Backup& backup, const fs::path& config,
                                    const std::vector<CameraAddress>& cameras) {
   const fs::path file = full_path(config);
+  if (const auto right = check_events(backup.manifest.events); !right) {
+    return tl::unexpected(right.error());
+  }
   auto present = present_places(file);
   if (!present) return tl::unexpected(present.error());
   auto files = renamed_files(backup, file);

@@ -45,7 +45,7 @@ Result<SitePlaces> present_places(const std::filesystem::path& config);
 
 /// Checks a backup for the configuration file `config`, which may not exist yet, and sets the
 /// cameras' devices. Errors: the configuration of the backup is not valid here; a camera without an
-/// address; another state folder than at present.
+/// address; another state folder than at present; as check_events().
 Result<Restoration> restoration_of(const Backup& backup, const std::filesystem::path& config,
                                    const std::vector<CameraAddress>& cameras);
 

@@ -139,6 +139,17 @@ TEST_F(KeptEvents, OfAnotherFormAreRefused) {
   EXPECT_THAT(place(frame_of({recording}) + frame_of({recording}), stated), HasSubstr("damaged"));
 }
 
+TEST(KeptEventsList, HasNamesOfEventsInOrderAndOnceEach) {
+  EXPECT_TRUE(check_events({}));
+  EXPECT_TRUE(check_events({{kFirst, 1}, {kSecond, 1}}));
+  EXPECT_FALSE(check_events({{kSecond, 1}, {kFirst, 1}}));
+  EXPECT_FALSE(check_events({{kFirst, 1}, {kFirst, 1}}));
+  for (const char* name : {"", "..", "../../etc", "20261128T092200.125Z-alarm/..", "a/b",
+                           "20261128T092200.125Z-alarm.unfinished"}) {
+    EXPECT_FALSE(check_events({{name, 1}})) << name;
+  }
+}
+
 TEST_F(KeptEvents, LeaveTheReserveOfTheDisk) {
   EXPECT_THAT(place(frame(), manifest_events(kept()), std::uint64_t{1} << 60),
               HasSubstr("has no room for the events: 0 MiB beside reserve_mib are needed"));
