@@ -159,12 +159,13 @@ std::vector<FileChange> changes_of(const Restoration& restoration) {
     const bool is_there = fs::exists(fs::symlink_status(path, none));
     const auto old = hal::read_regular_file(path, kMostBytes);
     const bool is_same = old && *old == file.bytes;
-    changes.push_back({file.name, !is_there ? "new" : is_same ? "same" : "changed"});
+    changes.push_back({file.name, !is_there ? "new" : is_same ? "same" : "changed", path});
   }
   const auto missing = missing_events(restoration.events, restoration.event_place);
   for (const ManifestEvent& event : restoration.events) {
     const bool is_new = std::ranges::find(missing, event) != missing.end();
-    changes.push_back({"events/" + event.name, is_new ? "new" : "same"});
+    const std::string name = "events/" + event.name;
+    changes.push_back({name, is_new ? "new" : "same", restoration.event_place.recordings / name});
   }
   return changes;
 }
@@ -173,8 +174,8 @@ std::string changes_text(const Restoration& restoration) {
   constexpr std::size_t kColumn = 9;
   std::string text;
   for (const FileChange& change : changes_of(restoration)) {
-    text += change.word + std::string(kColumn - change.word.size(), ' ') +
-            restoration.places.at(change.name).string() + "\n";
+    text +=
+        change.word + std::string(kColumn - change.word.size(), ' ') + change.path.string() + "\n";
   }
   return text;
 }

@@ -53,6 +53,7 @@ Result<Restoration> restoration_of(const Backup& backup, const std::filesystem::
 struct FileChange {
   std::string name;
   std::string word;  ///< new, changed or same
+  std::filesystem::path path;
 };
 std::vector<FileChange> changes_of(const Restoration& restoration);
 
