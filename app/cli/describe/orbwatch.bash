@@ -20,8 +20,8 @@ _orbwatch() {
     "list "*) words="--json --appliances --seconds --domain --security --help" ;;
     "doctor "*) words="--config --json --help" ;;
     "support "*) words="--output --config --figures --pictures --help" ;;
-    "backup "*) words="--output --config --passphrase-file --without-secrets --help" ;;
-    "restore "*) words="--config --camera --passphrase-file --without-secrets --check --json --at-start --undo --pending --help" ;;
+    "backup "*) words="--output --config --passphrase-file --without-secrets --with-events --help" ;;
+    "restore "*) words="--config --camera --passphrase-file --without-secrets --without-events --check --json --at-start --undo --pending --help" ;;
     "reset "*) words="--factory --config --from --check --at-start --help" ;;
     "update "*) words="--reboot --skip-failed --help" ;;
     "configure "*) words="--config --seconds --dry-run --confirm --cancel --help" ;;

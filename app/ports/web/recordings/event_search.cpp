@@ -2,8 +2,10 @@
 #include "app/ports/web/recordings/event_search.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cstdint>
+#include <optional>
 #include <ranges>
+#include <string_view>
 
 namespace orbwatch::app::web {
 namespace {
@@ -17,24 +19,25 @@ bool contains(std::string_view text, std::string_view part) {
   return part.empty() || !found.empty();
 }
 
-/// UTC as events have it, whose texts are in the order of time; empty remains empty.
-std::string written_in_full(const std::string& moment) {
-  const auto nanoseconds = parse_utc_text(moment);
-  if (!nanoseconds) return {};
-  return utc_text(std::chrono::system_clock::time_point(std::chrono::nanoseconds(*nanoseconds)))
-      .value_or("");
+/// Time of the trigger, or of the first frame set; nullopt: not known.
+std::optional<std::uint64_t> moment_of(const RecordedEvent& event) {
+  return parse_utc_text(event.triggered.empty() ? event.first : event.triggered);
 }
 
 }  // namespace
 
 RecordingsAnswer search_events(const std::vector<RecordedEvent>& events,
                                const RecordingsQuery& query) {
-  const std::string from = written_in_full(query.from), to = written_in_full(query.to);
+  const auto from = parse_utc_text(query.from), to = parse_utc_text(query.to);
+  const auto is_in_range = [&](const RecordedEvent& event) {
+    if (!from && !to) return true;
+    const auto moment = moment_of(event);
+    return moment && (!from || *moment >= *from) && (!to || *moment <= *to);
+  };
   const auto matches = [&](const RecordedEvent& event) {
-    const std::string& moment = event.triggered.empty() ? event.first : event.triggered;
     return (query.trigger.empty() || event.trigger == query.trigger) &&
            contains(event.part, query.part) && (!query.layer || event.layer == *query.layer) &&
-           (from.empty() || moment >= from) && (to.empty() || (!moment.empty() && moment <= to));
+           is_in_range(event);
   };
   RecordingsAnswer answer;
   answer.total = events.size();
