@@ -87,8 +87,9 @@ everything=("$here" platform/build-deb platform/debian platform/install_packages
             tests/support/checks.sh tests/support/debian_apt tests/support/debian_root tests/support/enter_root
             tests/support/modbus.sh tests/support/unpack_package)
 
-# choose_changed BASE SEED RUN...: sets chosen to those with changes since BASE, and two of the
-# others; with ORBWATCH_SINCE (tests/support/drawn.sh) to those with changes since then only.
+# choose_changed BASE SEED RUN...: sets chosen to those with changes since BASE, and, when HEAD's hash draws
+# machines at all, two of the others; with ORBWATCH_SINCE (tests/support/drawn.sh) to those with changes since
+# then only.
 choose_changed() {
   local base=${ORBWATCH_SINCE:-$1} seed=$2 run folders others=()
   shift 2
@@ -101,7 +102,7 @@ choose_changed() {
     if tests/support/changed "$base" "${folders[@]}"; then chosen+=("$run"); else others+=("$run"); fi
   done
   echo "changed since $base: ${chosen[*]:-none}"
-  [[ -z ${ORBWATCH_SINCE:-} ]] || return 0
+  draws machines || return 0
   mapfile -t others < <(lines "${others[@]}" | draw 2 "$seed")
   chosen+=("${others[@]}")
 }

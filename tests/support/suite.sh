@@ -36,7 +36,7 @@ by_turns() {
   while read -r name; do echo "$(sha256sum <<<"$head $name") $name"; done | sort | sed 's/.* //'
 }
 
-# Most objects that CI compiles for a sanitizer; all are about twice as many, 1600 CPU s (2 cores, 2026).
+# Most objects that CI compiles for a sanitizer; all are about twice as many (tests/REPORT.md has their cost).
 most_objects=90
 
 # objects_of FOLDER NAME...: prints the number of objects that the programs consist of.
