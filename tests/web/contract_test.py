@@ -219,6 +219,9 @@ class Contract(unittest.TestCase):
                 {"region": recipe["regions"][0]["name"], "figure": "hot_spot_width"},
                 {"camera": name, "figure": "blur"}],
             "/api/v1/history/alarms": [{}, {"events": 0}],
+            "/api/v1/recordings": [{}, {
+                "trigger": "command", "part": "blade", "layer": 1, "from": "2026-11-28T09:22:00Z",
+                "to": "2100-01-01T00:00:00.125Z", "before": event["event"], "limit": 10}],
             "/api/v1/log": [{}, {"lines": 1, "level": "warning", "after": 1}],
             "/snapshot.jpg": [{"view": views[0]}, {"view": views[0], "width": 200}],
             "/stream.mjpg": [{"view": views[0]}, {"view": views[0], "width": 200}],
