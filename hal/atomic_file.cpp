@@ -92,6 +92,10 @@ AtomicFile::~AtomicFile() {
 }
 
 Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, FileAccess access) {
+  std::error_code none;
+  if (std::filesystem::is_other(std::filesystem::symlink_status(path, none))) {
+    return fail(path.string() + ": cannot be written: is a device or another special file");
+  }
   static std::atomic<unsigned> serial{0};
   const std::string temporary =
       path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";

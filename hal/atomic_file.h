@@ -23,7 +23,8 @@ enum class FileAccess {
 /// failure leaves neither a part nor a temporary file. Written by root, the file belongs to the
 /// owner of the file that it replaces, or, if that is root or does not exist, to the owner and the
 /// group of its folder, so that a service can read it. Errors: folder missing or not writable, disk
-/// full, a file system that refuses the owner. Reentrant.
+/// full, a file system that refuses the owner, a device or another special file in the place.
+/// Reentrant.
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                     FileAccess access = FileAccess::Umask);
 Result<> write_file(const std::filesystem::path& path, std::string_view text,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <string>
@@ -61,10 +62,15 @@ Result<Collected> collected(const fs::path& config, bool with_events) {
   auto backup = backup::collect(backup::site_of(config, *state, site->site, site->texts));
   if (!backup) return tl::unexpected(backup.error());
   if (!with_events) return Collected{std::move(*backup)};
+  backup::Manifest& manifest = backup->manifest;
   const auto& recorder = std::get<RecorderSettings>(site->site.sinks);
-  auto events = backup::kept_events(recorder.folder);
+  if (recorder.folder.empty()) {
+    manifest.left_out.emplace_back("kept events: the configuration has no folder in [recorder]");
+    return Collected{std::move(*backup)};
+  }
+  auto events = backup::kept_events(recorder.folder, manifest.left_out);
   if (!events) return tl::unexpected(events.error());
-  backup->manifest.events = backup::manifest_events(*events);
+  manifest.events = backup::manifest_events(*events);
   return Collected{std::move(*backup), std::move(*events),
                    static_cast<std::uint64_t>(recorder.reserve_mib) << 20};
 }
@@ -77,18 +83,20 @@ Error advised(Error error) {
   return error;
 }
 
-/// Writes the file, which appears as a whole.
+/// Writes the file, which appears as a whole. Ctrl-C ends it without a file.
 Result<> write_backup(const fs::path& output, const std::string& bytes, const Collected& all) {
+  const std::atomic<bool>& is_cancelled = cancelled_by_signal();
   auto file = hal::AtomicFile::create(output, hal::FileAccess::Owner);
   if (!file) return tl::unexpected(file.error());
-  const auto sink = [&](std::string_view part) { return file->write(part); };
-  auto written = sink(bytes);
-  if (written && !all.events.empty()) {
-    written = backup::check_room(all.backup.manifest.events, fs::absolute(output).parent_path(),
-                                 all.reserve)
-                  .and_then([&] { return backup::write_events(all.events, sink); });
-  }
-  return written.and_then([&] { return file->place(); });
+  const auto sink = [&](std::string_view part) -> Result<> {
+    if (is_cancelled) return fail("cancelled; no file is written");
+    return file->write(part);
+  };
+  const auto& events = all.backup.manifest.events;
+  return backup::check_room(events, fs::absolute(output).parent_path(), all.reserve)
+      .and_then([&] { return sink(bytes); })
+      .and_then([&] { return backup::write_events(all.events, events, sink); })
+      .and_then([&] { return file->place(); });
 }
 
 std::string report(const BackupOptions& o, const backup::Backup& backup, bool is_encrypted) {

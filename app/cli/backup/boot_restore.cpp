@@ -70,15 +70,14 @@ Result<std::string> restored(const fs::path& config, const fs::path& folder, Fra
   constexpr mode_t kOwnersFile = 0600;
   DiskChanges disk;
   std::string text = restore_text(read->backup, *restoration);
-  const auto replaced = replace_files(restoration->places, restoration->files, disk).and_then([&] {
-    return disk.write(boot_record(restoration->places), record, kOwnersFile);
-  });
-  if (!replaced) return tl::unexpected(replaced.error());
-  text += "restored from " + folder.string() + "\n";
-  if (restoration->events.empty()) return text;
-  const auto placed = place_events(frames, restoration->events, restoration->event_place, disk);
-  if (!placed) text += "not all events are restored: " + shown(placed.error().message) + "\n";
-  return text;
+  // Before the record: an interrupted restore is repeated, and goes on with the missing events.
+  if (!restoration->events.empty()) {
+    const auto placed = place_events(frames, restoration->events, restoration->event_place, disk);
+    if (!placed) text += "not all events are restored: " + shown(placed.error().message) + "\n";
+  }
+  return replace_files(restoration->places, restoration->files, disk)
+      .and_then([&] { return disk.write(boot_record(restoration->places), record, kOwnersFile); })
+      .map([&] { return text + "restored from " + folder.string() + "\n"; });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "app/cli/archive/tar_header.h"
+#include "app/cli/backup/as_owner.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "app/ports/recorder/events/event_summary.h"
 #include "hal/atomic_file.h"
@@ -28,7 +29,8 @@ namespace fs = std::filesystem;
 using recorder::EventFolder;
 using recorder::StoredEvent;
 
-constexpr std::string_view kFolder = "events/";
+/// More do not fit into a folder that people look at.
+constexpr std::size_t kMostEvents = 10'000;
 constexpr std::array<std::string_view, 4> kFiles{recorder::kEventFile, recorder::kEventSummary,
                                                  recorder::kEventPicture, recorder::kEventPin};
 constexpr std::size_t kPart = std::size_t{128} << 10;
@@ -38,16 +40,27 @@ tl::unexpected<Error> not_read(const fs::path& file) {
   return fail(file.string() + ": cannot be read: " + std::system_category().message(errno));
 }
 
+/// What the names of an event's files begin with.
+std::string name_above(const std::string& event) { return "events/" + event + "/"; }
+
 std::string filling(std::uint64_t size) { return std::string(tar_padded(size) - size, '\0'); }
 
-/// Writes a file of an event as an entry.
-Result<> write_entry(const fs::path& file, const std::string& name, FrameWriter& frame) {
+tl::unexpected<Error> changed(const StoredEvent& event) {
+  return fail(event.folder.string() + ": was changed meanwhile; try again");
+}
+
+/// Writes a file of an event as an entry. Returns its size.
+Result<std::uint64_t> write_entry(const StoredEvent& event, std::string_view file_name,
+                                  FrameWriter& frame) {
+  const fs::path file = event.folder / file_name;
   const hal::FileDescriptor opened = hal::open_no_link(file);
   struct stat about {};
+  if (!opened.is_open() && errno == ENOENT) return 0;
   if (!opened.is_open() || ::fstat(opened.get(), &about) != 0) return not_read(file);
   if (!S_ISREG(about.st_mode)) return fail(file.string() + ": is not a regular file");
   const auto size = static_cast<std::uint64_t>(about.st_size);
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const std::string name = name_above(event.name).append(file_name);
   auto done = tar_header({name, size, kReadable}, now).and_then([&](const std::string& header) {
     return frame.add(header);
   });
@@ -56,49 +69,50 @@ Result<> write_entry(const fs::path& file, const std::string& name, FrameWriter&
     const ssize_t count =
         ::read(opened.get(), part.data(), std::min<std::uint64_t>(part.size(), left));
     if (count < 0) return not_read(file);
-    if (count == 0) return fail(file.string() + ": became shorter meanwhile");
+    if (count == 0) return changed(event);
     done = frame.add(std::string_view(part).substr(0, static_cast<std::size_t>(count)));
     left -= static_cast<std::uint64_t>(count);
   }
-  return done.and_then([&] { return frame.add(filling(size)); });
+  return done.and_then([&] { return frame.add(filling(size)); }).map([&] { return size; });
 }
 
-/// Reads a tar of events from a frame, and writes them.
-class Placement {
- public:
-  Placement(FrameReader& frames, const EventPlace& place, DiskChanges& disk)
-      : frames_(frames), folder_(place.recordings), disk_(disk) {}
-
-  Result<> place(const ManifestEvent& event) {
-    std::error_code none;
-    const bool is_there = fs::exists(folder_.path() / event.name, none);
-    const fs::path staged = folder_.restoring(event.name);
-    fs::remove_all(staged, none);  // of a restore that was interrupted
-    auto done = is_there ? Result<>() : disk_.make_folder(staged);
-    std::set<std::string> files;
-    for (std::uint64_t left = event.bytes; done && (left > 0 || is_next_of(event));) {
-      done = take_entry(event, left, files, is_there ? fs::path() : staged);
-    }
-    if (done && !files.contains(recorder::kEventFile)) done = damaged();
-    if (done && !is_there) done = folder_.finish(staged);
-    fs::remove_all(staged, none);
-    return done;
+/// Writes an event as a frame.
+Result<> write_event(const StoredEvent& event, const ManifestEvent& stated,
+                     const FrameWriter::Sink& sink) {
+  FrameWriter frame(sink);
+  std::uint64_t bytes = 0;
+  for (const std::string_view file : kFiles) {
+    const auto size = write_entry(event, file, frame);
+    if (!size) return tl::unexpected(size.error());
+    bytes += *size;
   }
+  if (bytes != stated.bytes) return changed(event);
+  constexpr std::size_t kEndBlocks = 2;
+  return frame.add(std::string(kEndBlocks * kTarBlock, '\0')).and_then([&] {
+    return frame.finish();
+  });
+}
 
-  /// Error: something follows the events.
-  Result<> finish() {
-    if (auto read = read_header(); !read) return read;
-    if (header_ != std::string(kTarBlock, '\0')) return damaged();
-    header_.clear();
-    if (auto read = read_header(); !read) return read;
-    std::array<char, 1> more{};
-    const auto count = frames_.read(more);
-    if (!count) return tl::unexpected(count.error());
-    if (*count > 0 || header_ != std::string(kTarBlock, '\0')) return damaged();
-    const auto next = frames_.next();
-    if (!next) return tl::unexpected(next.error());
-    if (*next) return damaged();
-    return {};
+/// Reads the frame of an event, and writes its files into a folder; without one it is only checked.
+class EventReader {
+ public:
+  EventReader(FrameReader& frames, const ManifestEvent& event, fs::path staged)
+      : frames_(frames),
+        above_(name_above(event.name)),
+        left_(event.bytes),
+        staged_(std::move(staged)) {}
+
+  Result<> read() {
+    while (true) {
+      auto block = read_block();
+      if (!block) return tl::unexpected(block.error());
+      if (*block == std::string(kTarBlock, '\0')) break;
+      auto taken =
+          parse_tar_header(*block).and_then([this](const TarEntry& entry) { return take(entry); });
+      if (!taken) return taken;
+    }
+    if (left_ > 0 || !files_.contains(recorder::kEventFile)) return damaged();
+    return read_end();
   }
 
  private:
@@ -106,38 +120,35 @@ class Placement {
     return fail("is damaged: its events are not those of the manifest");
   }
 
-  Result<> read_header() {
-    if (!header_.empty()) return {};
-    header_.resize(kTarBlock);
-    const auto count = frames_.read(header_);
+  Result<std::string> read_block() {
+    std::string block(kTarBlock, '\0');
+    const auto count = frames_.read(block);
     if (!count) return tl::unexpected(count.error());
     if (*count < kTarBlock) return fail("is cut off");
+    return block;
+  }
+
+  /// Reads the second block of the end; the frame's checksum is that of all its bytes.
+  Result<> read_end() {
+    const auto block = read_block();
+    if (!block) return tl::unexpected(block.error());
+    std::array<char, 1> more{};
+    const auto count = frames_.read(more);
+    if (!count) return tl::unexpected(count.error());
+    if (*count > 0 || *block != std::string(kTarBlock, '\0')) return damaged();
     return {};
   }
 
-  /// True: the next entry is an empty file of the event.
-  bool is_next_of(const ManifestEvent& event) {
-    if (!read_header()) return false;
-    const auto entry = parse_tar_header(header_);
-    return entry && entry->name.starts_with(std::string(kFolder) + event.name + "/");
-  }
-
-  /// Takes a file of the event into the folder `staged`; empty: skips it.
-  Result<> take_entry(const ManifestEvent& event, std::uint64_t& left, std::set<std::string>& files,
-                      const fs::path& staged) {
-    if (auto read = read_header(); !read) return read;
-    const auto entry = parse_tar_header(std::exchange(header_, {}));
-    if (!entry) return tl::unexpected(entry.error());
-    const std::string above = std::string(kFolder) + event.name + "/";
-    const std::string file = entry->name.substr(std::min(above.size(), entry->name.size()));
-    const bool is_right = entry->name.starts_with(above) && entry->size <= left &&
-                          std::ranges::count(kFiles, file) > 0 && files.insert(file).second;
+  Result<> take(const TarEntry& entry) {
+    const std::string file = entry.name.substr(std::min(above_.size(), entry.name.size()));
+    const bool is_right = entry.name.starts_with(above_) && entry.size <= left_ &&
+                          std::ranges::count(kFiles, file) > 0 && files_.insert(file).second;
     if (!is_right) return damaged();
-    left -= entry->size;
-    if (staged.empty()) return copy(entry->size, [](std::string_view) { return Result<>(); });
-    auto written = hal::AtomicFile::create(staged / file, hal::FileAccess::Folder);
+    left_ -= entry.size;
+    if (staged_.empty()) return copy(entry.size, [](std::string_view) { return Result<>(); });
+    auto written = hal::AtomicFile::create(staged_ / file, hal::FileAccess::Folder);
     if (!written) return tl::unexpected(written.error());
-    return copy(entry->size, [&](std::string_view part) { return written->write(part); })
+    return copy(entry.size, [&](std::string_view part) { return written->write(part); })
         .and_then([&] { return written->place(); });
   }
 
@@ -158,32 +169,72 @@ class Placement {
   }
 
   FrameReader& frames_;
-  const EventFolder folder_;
-  DiskChanges& disk_;
-  std::string header_;  ///< of the next entry; empty: not read yet
+  const std::string above_;  ///< what the names of its files begin with
+  std::uint64_t left_;       ///< bytes of its files that are still to come
+  const fs::path staged_;
+  std::set<std::string> files_;
 };
 
-/// Makes the folders of events; what is above recordings must exist. Recordings may be a link to
-/// another disk; the service, which owns what is below, may not lead root elsewhere.
-Result<> make_event_folder(const EventPlace& place, DiskChanges& disk) {
+/// Adds an event that is not there yet.
+Result<> add_event(FrameReader& frames, const ManifestEvent& event, const EventFolder& folder,
+                   DiskChanges& disk) {
+  const fs::path staged = folder.restoring(event.name);
   std::error_code none;
-  const fs::path events = EventFolder(place.recordings).path();
-  if (fs::is_symlink(events, none)) return fail(events.string() + ": is a link");
-  for (const fs::path& folder : {place.recordings, events}) {
-    if (fs::is_directory(folder, none)) continue;
-    if (auto made = disk.make_folder(folder); !made) return made;
+  fs::remove_all(staged, none);  // of a restore that was interrupted
+  auto added = disk.make_folder(staged)
+                   .and_then([&] { return EventReader(frames, event, staged).read(); })
+                   .and_then([&] { return folder.finish(staged); });
+  fs::remove_all(staged, none);
+  return added;
+}
+
+/// Reads the frames of all events, the first of which has begun.
+Result<> read_events(FrameReader& frames, const std::vector<ManifestEvent>& events,
+                     const std::function<Result<>(const ManifestEvent&)>& read) {
+  for (const ManifestEvent& event : events) {
+    if (&event != &events.front()) {
+      const auto next = frames.next();
+      if (!next) return tl::unexpected(next.error());
+      if (!*next) return fail("is cut off: events are missing");
+    }
+    if (auto done = read(event); !done) return done;
   }
+  const auto more = frames.next();
+  if (!more) return tl::unexpected(more.error());
+  if (*more) return fail("is damaged: other bytes follow its events");
   return {};
+}
+
+/// The folder, or the nearest one above it that exists.
+fs::path existing(fs::path folder) {
+  std::error_code none;
+  while (!fs::exists(folder, none) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+/// Rounded up.
+std::string mebibytes(std::uint64_t bytes) {
+  return std::to_string((bytes >> 20) + ((bytes & 0xFFFFF) != 0 ? 1 : 0)) + " MiB";
 }
 
 }  // namespace
 
-Result<std::vector<StoredEvent>> kept_events(const fs::path& recordings) {
-  if (recordings.empty()) return std::vector<StoredEvent>();
-  return EventFolder(recordings).list().map([](std::vector<StoredEvent> events) {
-    std::erase_if(events, [](const auto& event) { return !event.is_pinned || !event.is_finished; });
-    return events;
-  });
+Result<std::vector<StoredEvent>> kept_events(const fs::path& recordings,
+                                             std::vector<std::string>& left_out) {
+  auto events = EventFolder(recordings).list();
+  if (!events) return events;
+  std::vector<StoredEvent> kept;
+  for (StoredEvent& event : *events) {
+    if (::access(event.folder.c_str(), R_OK | X_OK) != 0) return not_read(event.folder);
+    if (!event.is_pinned || !event.is_finished) continue;
+    std::error_code none;
+    if (fs::exists(event.folder / recorder::kEventFile, none)) {
+      kept.push_back(std::move(event));
+    } else {
+      left_out.push_back(event.folder.string() + ": has no " + recorder::kEventFile);
+    }
+  }
+  return kept;
 }
 
 std::vector<ManifestEvent> manifest_events(std::span<const StoredEvent> events) {
@@ -202,7 +253,8 @@ std::vector<ManifestEvent> manifest_events(std::span<const StoredEvent> events) 
 
 Result<> check_room(const std::vector<ManifestEvent>& events, const fs::path& folder,
                     std::uint64_t reserve) {
-  std::uint64_t wanted = 0;
+  if (events.empty()) return {};
+  std::uint64_t wanted = reserve;
   for (const ManifestEvent& event : events) {
     if (event.bytes > std::numeric_limits<std::uint64_t>::max() - wanted) {
       return fail("is damaged: its events are too large");
@@ -210,34 +262,29 @@ Result<> check_room(const std::vector<ManifestEvent>& events, const fs::path& fo
     wanted += event.bytes;
   }
   std::error_code error;
-  const std::uintmax_t free = fs::space(folder, error).available;
+  const std::uintmax_t free = fs::space(existing(folder), error).available;
   if (error) return fail(folder.string() + ": " + error.message());
-  if (free >= reserve && wanted <= free - reserve) return {};
-  return fail(folder.string() + ": has no room for the events: " + std::to_string(wanted >> 20) +
-              " MiB beside reserve_mib are needed, " + std::to_string(free >> 20) +
-              " MiB are free");
+  if (wanted <= free) return {};
+  return fail(folder.string() + ": has no room for the events: " + mebibytes(wanted) +
+              " are needed, " + mebibytes(reserve) + " of them for reserve_mib, and " +
+              std::to_string(free >> 20) + " MiB are free");
 }
 
-Result<> write_events(std::span<const StoredEvent> events, FrameWriter::Sink sink) {
-  FrameWriter frame(std::move(sink));
-  for (const StoredEvent& event : events) {
-    for (const std::string_view file : kFiles) {
-      std::error_code none;
-      if (!fs::exists(event.folder / file, none)) continue;
-      const std::string name = std::string(kFolder) + event.name + "/" + std::string(file);
-      if (auto written = write_entry(event.folder / file, name, frame); !written) return written;
-    }
+Result<> write_events(std::span<const StoredEvent> events, const std::vector<ManifestEvent>& stated,
+                      const FrameWriter::Sink& sink) {
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (auto written = write_event(events[i], stated[i], sink); !written) return written;
   }
-  constexpr std::size_t kEndBlocks = 2;
-  return frame.add(std::string(kEndBlocks * kTarBlock, '\0')).and_then([&] {
-    return frame.finish();
-  });
+  return {};
 }
 
 Result<> check_events(const std::vector<ManifestEvent>& events) {
   const bool are_names = std::ranges::all_of(events, recorder::is_event_name, &ManifestEvent::name);
   const auto out_of_order =
       std::ranges::adjacent_find(events, std::ranges::greater_equal(), &ManifestEvent::name);
+  if (events.size() > kMostEvents) {
+    return fail("has more than " + std::to_string(kMostEvents) + " events");
+  }
   if (are_names && out_of_order == events.end()) return {};
   return fail("is damaged: its list of events is not right");
 }
@@ -253,16 +300,30 @@ std::vector<ManifestEvent> missing_events(const std::vector<ManifestEvent>& even
   return missing;
 }
 
+Result<> check_frames(FrameReader& frames, const std::vector<ManifestEvent>& events,
+                      const EventPlace& place) {
+  return check_room(missing_events(events, place), place.recordings, place.reserve).and_then([&] {
+    return read_events(frames, events, [&](const ManifestEvent& event) {
+      return EventReader(frames, event, {}).read();
+    });
+  });
+}
+
 Result<> place_events(FrameReader& frames, const std::vector<ManifestEvent>& events,
                       const EventPlace& place, DiskChanges& disk) {
-  if (auto made = make_event_folder(place, disk); !made) return made;
-  if (auto room = check_room(missing_events(events, place), place.recordings, place.reserve); !room)
-    return room;
-  Placement placement(frames, place, disk);
-  for (const ManifestEvent& event : events) {
-    if (auto placed = placement.place(event); !placed) return placed;
-  }
-  return placement.finish();
+  if (auto made = make_folders(place.recordings, disk); !made) return made;
+  return as_owner_of(place.recordings, [&]() -> Result<> {
+    const std::vector<ManifestEvent> missing = missing_events(events, place);
+    if (auto room = check_room(missing, place.recordings, place.reserve); !room) return room;
+    const EventFolder folder(place.recordings);
+    if (auto made = make_folders(folder.path(), disk); !made) return made;
+    return read_events(frames, events, [&](const ManifestEvent& event) {
+      const bool is_missing =
+          std::ranges::binary_search(missing, event.name, {}, &ManifestEvent::name);
+      return is_missing ? add_event(frames, event, folder, disk)
+                        : EventReader(frames, event, {}).read();
+    });
+  });
 }
 
 }  // namespace orbwatch::app::cli::backup

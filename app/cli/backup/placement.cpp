@@ -81,21 +81,13 @@ Result<Archive> kept_files(const SitePlaces& places, const std::vector<std::stri
   return kept;
 }
 
-/// Makes the missing folders above a file.
-Result<> make_folders(const fs::path& file, DiskChanges& disk) {
-  const fs::path folder = file.parent_path();
-  std::error_code error;
-  if (fs::is_directory(folder, error)) return {};
-  if (auto made = make_folders(folder, disk); !made) return made;
-  return disk.make_folder(folder);
-}
-
 Result<> write_files(const SitePlaces& places, const Archive& files, DiskChanges& disk) {
   for (const ArchivedFile& file : files) {
     if (auto right = check_folders(places, file.name); !right) return right;
     const fs::path path = places.at(file.name);
-    auto written =
-        make_folders(path, disk).and_then([&] { return disk.write(path, file.bytes, file.mode); });
+    auto written = make_folders(path.parent_path(), disk).and_then([&] {
+      return disk.write(path, file.bytes, file.mode);
+    });
     if (!written) return written;
   }
   return {};
@@ -170,15 +162,27 @@ Result<> DiskChanges::make_folder(const fs::path& folder) {
   const int made = ::mkdir(folder.c_str(), above.st_mode & kModes);
   ::umask(mask);
   if (made != 0) return cannot(folder, "made");
-  const bool is_given =
-      ::geteuid() != 0 || ::lchown(folder.c_str(), above.st_uid, above.st_gid) == 0;
+  // Whoever may write above could put a link in its place meanwhile.
+  const hal::FileDescriptor opened(
+      ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   struct stat about {};
-  const bool is_right = ::lstat(folder.c_str(), &about) == 0 &&
-                        (about.st_mode & kPermissions) == (above.st_mode & kPermissions);
-  if (!is_given || (!is_right && ::chmod(folder.c_str(), above.st_mode & kPermissions) != 0)) {
+  const bool is_ours =
+      opened.is_open() && ::fstat(opened.get(), &about) == 0 && about.st_uid == ::geteuid();
+  const bool is_given =
+      is_ours && (::geteuid() != 0 || ::fchown(opened.get(), above.st_uid, above.st_gid) == 0);
+  const mode_t mode = above.st_mode & (kModes | S_ISGID);
+  const bool is_right = is_given && (about.st_mode & kPermissions) == mode;
+  if (!is_given || (!is_right && ::fchmod(opened.get(), mode) != 0)) {
     return cannot(folder, "given its owner");
   }
   return hal::sync_folder(folder.parent_path());
+}
+
+Result<> make_folders(const fs::path& folder, DiskChanges& disk) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return {};
+  if (auto made = make_folders(folder.parent_path(), disk); !made) return made;
+  return disk.make_folder(folder);
 }
 
 fs::path undo_file(const SitePlaces& places) { return places.state / "restore-undo.tar"; }
@@ -193,19 +197,22 @@ Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChang
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   constexpr mode_t kOwner = 0600;
   bool is_written = false;
-  const auto done =
-      tar_of(*kept, now)
-          .and_then([&](const std::string& tar) -> Result<> {
-            const bool is_readable = tar.size() <= kMostKept && kept->size() <= kMostArchivedFiles;
-            if (!is_readable) return fail("the old files are too many or too large to keep");
-            return make_folders(undo, disk).and_then([&] { return disk.write(undo, tar, kOwner); });
-          })
-          .and_then([&] { return write_files(places, files, disk); })
-          .and_then([&] { return remove_files(places, removed, disk); })
-          .and_then([&] {
-            is_written = true;
-            return disk.remove(undo);
-          });
+  const auto done = tar_of(*kept, now)
+                        .and_then([&](const std::string& tar) -> Result<> {
+                          const bool is_readable =
+                              tar.size() <= kMostKept && kept->size() <= kMostArchivedFiles;
+                          if (!is_readable)
+                            return fail("the old files are too many or too large to keep");
+                          return make_folders(undo.parent_path(), disk).and_then([&] {
+                            return disk.write(undo, tar, kOwner);
+                          });
+                        })
+                        .and_then([&] { return write_files(places, files, disk); })
+                        .and_then([&] { return remove_files(places, removed, disk); })
+                        .and_then([&] {
+                          is_written = true;
+                          return disk.remove(undo);
+                        });
   if (done) return {};
   const std::string& reason = done.error().message;
   const auto undone = undo_unfinished(places, disk);

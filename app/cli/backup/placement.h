@@ -40,6 +40,9 @@ class DiskChanges {
   virtual Result<> make_folder(const std::filesystem::path& folder);
 };
 
+/// Makes a folder and the missing ones above it.
+Result<> make_folders(const std::filesystem::path& folder, DiskChanges& disk);
+
 std::filesystem::path undo_file(const SitePlaces& places);
 
 /// Writes the files and removes those named `removed`; names are those of check_place(). Errors: a

@@ -69,6 +69,16 @@ Result<OpenBackup> open_backup(const RestoreOptions& o, const fs::path& file) {
   return OpenBackup{std::move(*frames), std::move(read->backup)};
 }
 
+/// Reads the events of the backup to their end.
+Result<> checked_events(OpenBackup& opened, const backup::Restoration& restoration) {
+  if (restoration.events.empty()) return {};
+  return check_frames(opened.frames, restoration.events, restoration.event_place)
+      .map_error([](const Error& error) {
+        return Error{"its events cannot be restored: " + backup::shown(error.message) +
+                     "; --without-events leaves them out"};
+      });
+}
+
 /// Adds the events of the backup to the recordings. orbwatchd may run.
 Result<> restore_events(OpenBackup& opened, const backup::Restoration& restoration,
                         backup::DiskChanges& disk) {
@@ -109,7 +119,11 @@ CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
   if (!restoration) return fail(file.string() + ": " + backup::shown(restoration.error().message));
   const std::string text =
       o.json ? restore_json(backup, *restoration) : *undone + restore_text(backup, *restoration);
-  if (o.check) return text;
+  if (o.check) {
+    const auto right = checked_events(*opened, *restoration);
+    if (!right) return fail(file.string() + ": " + right.error().message);
+    return text;
+  }
   const auto done = replaced(o, *opened, *restoration);
   if (!done) return fail(file.string() + ": " + done.error().message);
   return o.json ? text : text + *done;

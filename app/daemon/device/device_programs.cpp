@@ -103,6 +103,7 @@ Result<std::string> DevicePrograms::restored(const Restore& restore, const char*
   for (const CameraAddress& camera : restore.cameras) {
     call.arguments.insert(call.arguments.end(), {"--camera", camera.camera + "=" + camera.address});
   }
+  if (!restore.events) call.arguments.emplace_back("--without-events");
   if (restore.passphrase) {
     call.secret = *restore.passphrase + "\n";
     call.arguments.insert(call.arguments.end(), {"--passphrase-file", kChildSecret});

@@ -35,6 +35,7 @@ class DeviceFiles {
   struct Restore {
     std::optional<std::string> passphrase;  ///< for the secrets; nullopt: this device's are kept
     std::vector<CameraAddress> cameras;
+    bool events = true;  ///< also the kept events of the backup
   };
 
   virtual ~DeviceFiles() = default;

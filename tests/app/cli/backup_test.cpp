@@ -111,6 +111,8 @@ TEST_F(BackupProgram, KeptEventsGoAlongWhenAskedFor) {
   std::filesystem::remove_all(path("new"));
   std::filesystem::create_directories(path("new"));
   write("backup.tar.zst", bytes->substr(0, bytes->size() - 10));
+  EXPECT_EQ(restore({"--check"}), 1);
+  EXPECT_THAT(said, HasSubstr("its events cannot be restored: is cut off"));
   EXPECT_EQ(restore(), 1);
   EXPECT_THAT(said, HasSubstr("not all events are restored, and nothing else: is cut off"));
   EXPECT_TRUE(states_below(path("new")).empty());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -38,6 +39,14 @@ std::string name_before(const fs::path& folder, std::string_view ending) {
   if (!name.ends_with(ending)) return {};
   name.resize(name.size() - ending.size());
   return is_event_name(name) ? name : std::string();
+}
+
+/// True: a restore was interrupted. A restore of one event takes less than an hour.
+bool is_left_behind(const fs::path& folder) {
+  std::error_code unknown;
+  const auto changed = fs::last_write_time(folder, unknown);
+  return !name_before(folder, kRestoring).empty() && !unknown &&
+         changed < fs::file_time_type::clock::now() - std::chrono::hours(1);
 }
 
 /// Bytes of the files in a folder; those that vanish meanwhile do not count.
@@ -98,8 +107,7 @@ Result<> EventFolder::prepare() {
     folders.push_back(it->path());
   }
   for (const fs::path& folder : folders) {
-    const bool is_doomed =
-        !name_before(folder, kDeleted).empty() || !name_before(folder, kRestoring).empty();
+    const bool is_doomed = !name_before(folder, kDeleted).empty() || is_left_behind(folder);
     if (is_doomed) fs::remove_all(folder, error);
     if (name_before(folder, kUnfinished).empty() || given_up_.contains(folder)) continue;
     const auto recovered = recover(folder);

@@ -40,8 +40,8 @@ class EventFolder {
 
   const std::filesystem::path& path() const { return root_; }
 
-  /// Finishes events whose recorder ended early, ends deletions, and deletes what is not wholly
-  /// restored. What cannot be finished is
+  /// Finishes events whose recorder ended early, ends deletions, and deletes what an interrupted
+  /// restore left an hour ago or earlier. What cannot be finished is
   /// logged once and stays. Errors: the folder; a full disk, for which they wait.
   Result<> prepare();
 

@@ -92,6 +92,7 @@ void visit(Visitor& v, RestoreBody& body) {
   v.required("passphrase", body.restore.passphrase,
              "Of the backup; null: this device's users, certificates and keys are kept");
   v.optional("cameras", body.restore.cameras, "Cameras that are other devices here");
+  v.optional("events", body.restore.events, "Also the kept events of the backup");
 }
 
 struct ChangedFile {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/cli/archive/tar.h"
 #include "app/ports/recorder/events/event_summary.h"
 #include "tests/app/cli/backup/site.h"
+#include "tests/support/service_user.h"
 
 namespace orbwatch::app::cli::backup {
 namespace {
@@ -37,16 +39,19 @@ class KeptEvents : public testing::Test {
   }
 
   std::vector<recorder::StoredEvent> kept() const {
-    auto events = kept_events(folder / "old");
+    std::vector<std::string> left_out;
+    auto events = kept_events(folder / "old", left_out);
+    EXPECT_TRUE(left_out.empty());
     EXPECT_TRUE(events) << events.error().message;
     return events.value_or(std::vector<recorder::StoredEvent>());
   }
   std::string frame() const {
     std::string bytes;
-    EXPECT_TRUE(write_events(kept(), [&](std::string_view part) -> Result<> {
-      bytes += part;
-      return {};
-    }));
+    EXPECT_TRUE(
+        write_events(kept(), manifest_events(kept()), [&](std::string_view part) -> Result<> {
+          bytes += part;
+          return {};
+        }));
     return bytes;
   }
   static std::string frame_of(const Archive& archive) {
@@ -54,13 +59,16 @@ class KeptEvents : public testing::Test {
         .and_then([](const std::string& tar) { return compressed(tar); })
         .value_or("");
   }
-  /// Restores a frame on the new device; returns the reason against it.
+  /// Restores frames on the new device; returns the reason against it. Checking says the same.
   std::string place(const std::string& bytes, const std::vector<ManifestEvent>& events,
                     std::uint64_t reserve = 0) {
-    FrameReader frames = frames_of(bytes);
-    if (!frames.next().value_or(false)) return "no frame";
+    FrameReader checked = frames_of(bytes), frames = frames_of(bytes);
+    if (!checked.next().value_or(false) || !frames.next().value_or(false)) return "no frame";
+    const EventPlace place{folder / "new", reserve};
+    const auto right = check_frames(checked, events, place);
     DiskChanges disk;
-    const auto placed = place_events(frames, events, {folder / "new", reserve}, disk);
+    const auto placed = place_events(frames, events, place, disk);
+    EXPECT_EQ(right ? "" : right.error().message, placed ? "" : placed.error().message);
     return placed ? "" : placed.error().message;
   }
   /// Names below the events of the new device.
@@ -152,30 +160,76 @@ TEST(KeptEventsList, HasNamesOfEventsInOrderAndOnceEach) {
 
 TEST_F(KeptEvents, LeaveTheReserveOfTheDisk) {
   EXPECT_THAT(place(frame(), manifest_events(kept()), std::uint64_t{1} << 60),
-              HasSubstr("has no room for the events: 0 MiB beside reserve_mib are needed"));
+              HasSubstr("has no room for the events: 1099511627777 MiB are needed"));
   EXPECT_THAT(place(frame(), {{kFirst, ~std::uint64_t{0}}, {kSecond, 1}}), HasSubstr("too large"));
   EXPECT_THAT(restored(), ElementsAre());
 }
 
-TEST_F(KeptEvents, AreNotLedElsewhereByALink) {
-  fs::create_directories(folder / "elsewhere");
-  fs::create_directory_symlink(folder / "elsewhere", folder / "new/events");
-  EXPECT_THAT(place(frame(), manifest_events(kept())), HasSubstr("is a link"));
-  EXPECT_TRUE(fs::is_empty(folder / "elsewhere"));
+TEST_F(KeptEvents, AppearOnlyWhenTheirChecksumIsRight) {
+  std::string bytes = frame();
+  bytes[200] = static_cast<char>(bytes[200] ^ 1);
+  EXPECT_NE(place(bytes, manifest_events(kept())), "");
+  EXPECT_THAT(restored(), ElementsAre());
+  EXPECT_EQ(place(frame(), manifest_events(kept())), "");
+}
+
+TEST_F(KeptEvents, BelongToTheOwnerOfTheRecordingsAndAreWrittenWithItsRights) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  fs::permissions(folder.path(), fs::perms(0755));
+  tests::give_to_service(folder / "new");
+  EXPECT_EQ(place(frame(), manifest_events(kept())), "");
+  struct stat about {};
+  ASSERT_EQ(::stat((folder / "new/events" / kFirst / recorder::kEventFile).c_str(), &about), 0);
+  EXPECT_EQ(about.st_uid, tests::kService);
+  EXPECT_EQ(about.st_gid, tests::kService);
+
+  fs::remove_all(folder / "new/events");
+  fs::create_directories(folder / "of-root");
+  fs::create_directory_symlink(folder / "of-root", folder / "new/events");
+  EXPECT_THAT(place(frame(), manifest_events(kept())), HasSubstr("Permission denied"));
+  EXPECT_TRUE(fs::is_empty(folder / "of-root"));
+}
+
+TEST_F(KeptEvents, MayHaveMissingFoldersAboveThem) {
+  fs::remove_all(folder / "new");
+  FrameReader frames = frames_of(frame());
+  ASSERT_TRUE(frames.next().value_or(false));
+  DiskChanges disk;
+  const EventPlace deeper{folder / "new/a/b", 0};
+  const auto placed = place_events(frames, manifest_events(kept()), deeper, disk);
+  EXPECT_TRUE(placed) << placed.error().message;
+  EXPECT_TRUE(fs::exists(folder / "new/a/b/events" / kFirst / recorder::kEventFile));
 }
 
 TEST_F(KeptEvents, ThatChangeMeanwhileEndTheBackup) {
-  auto events = kept();
+  const auto events = kept();
+  const auto stated = manifest_events(events);
+  const auto refusal = [&] {
+    const auto written = write_events(events, stated, [](std::string_view) { return Result<>(); });
+    return written ? "" : written.error().message;
+  };
+  EXPECT_EQ(refusal(), "");
+  write_file(old / kFirst / recorder::kEventSummary, "{ }");
+  EXPECT_THAT(refusal(), HasSubstr("was changed meanwhile; try again"));
+  write_file(old / kFirst / recorder::kEventSummary, "{}");
   fs::remove(old / kSecond / recorder::kEventFile);
+  EXPECT_THAT(refusal(), HasSubstr("was changed meanwhile"));
   fs::create_directory(old / kSecond / recorder::kEventFile);
-  const auto written = write_events(events, [](std::string_view) { return Result<>(); });
-  ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, HasSubstr("is not a regular file"));
+  EXPECT_THAT(refusal(), HasSubstr("is not a regular file"));
+}
+
+TEST_F(KeptEvents, WithoutARecordingAreLeftOut) {
+  fs::remove(old / kSecond / recorder::kEventFile);
+  std::vector<std::string> left_out;
+  const auto events = kept_events(folder / "old", left_out);
+  ASSERT_TRUE(events);
+  EXPECT_EQ(events->size(), 1U);
+  EXPECT_THAT(left_out, ElementsAre(HasSubstr("has no event.mcap")));
 }
 
 TEST(KeptEventsList, IsEmptyWithoutRecordings) {
-  EXPECT_EQ(kept_events("")->size(), 0U);
-  EXPECT_EQ(kept_events("/nonexistent/recordings")->size(), 0U);
+  std::vector<std::string> left_out;
+  EXPECT_EQ(kept_events("/nonexistent/recordings", left_out)->size(), 0U);
 }
 
 }  // namespace

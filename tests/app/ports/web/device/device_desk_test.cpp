@@ -214,6 +214,9 @@ TEST_F(Device, BackupIsUploadedInPartsCheckedAndRestored) {
   EXPECT_EQ(device->asked.passphrase, "correct horse battery");
   ASSERT_EQ(device->asked.cameras.size(), 1U);
   EXPECT_EQ(device->asked.cameras[0].address, "SN-2");
+  EXPECT_TRUE(device->asked.events);
+  ASSERT_EQ(ask("check_restore", {{"passphrase", nullptr}, {"events", false}}).status, 200);
+  EXPECT_FALSE(device->asked.events);
   EXPECT_THAT(audited("restore"), testing::ElementsAre("backup of cell-4, 2026-11-28"));
 }
 

@@ -5,6 +5,7 @@ import { decimalText } from "../elements/amounts.js";
 import { Card } from "../elements/card.js";
 import { element, field, passphraseFields, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { checkBox } from "./check_box.js";
 import { Restore } from "./restore.js";
 import { Update } from "./update.js";
 
@@ -14,10 +15,6 @@ const { device } = texts;
 const kResetWords = "factory reset";
 
 const kMebibyte = 1 << 20;
-
-function checkBox(label, name) {
-  return element("label", {}, element("input", { type: "checkbox", name }), " ", label);
-}
 
 // A file that the appliance makes and the browser then saves. `bodyOf(values)` is the request's body.
 class MadeFile {

@@ -3,6 +3,7 @@
 import { answerTo } from "../appliance/api.js";
 import { element, field, passphraseFields, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { checkBox } from "./check_box.js";
 import { upload } from "./upload.js";
 
 const { device } = texts;
@@ -20,6 +21,7 @@ export class Restore {
     this.form = element("form", {},
       field(device.restore.file, { name: "file", type: "file", accept: ".zst" }), " ",
       ...passphraseFields(device.passphrase, "current-password"), " ",
+      checkBox(device.restore.events, "events", true), " ",
       element("button", {}, device.restore.check));
     this.form.addEventListener("submit", (event) => this.#check(event));
     // The checked contents are not those that would be restored.
@@ -45,7 +47,7 @@ export class Restore {
     const { passphrase } = Object.fromEntries(new FormData(this.form));
     const cameras = this.#cameras.filter(({ input, address }) => input.value !== address)
       .map(({ name, input }) => ({ camera: name, address: input.value }));
-    return { passphrase: passphrase || null, cameras };
+    return { passphrase: passphrase || null, cameras, events: new FormData(this.form).has("events") };
   }
 
   async #check(event) {

@@ -25,6 +25,7 @@ export const device = {
     help: "Die Sicherung wird zuerst geprüft. Ohne ihre Passphrase bleiben Benutzer, Zertifikate und Schlüssel " +
       "dieses Geräts.",
     file: "Datei",
+    events: "mit den enthaltenen Ereignissen",
     change: "Änderung",
     changes: "Dateien der Sicherung",
     words: { new: "neu", changed: "geändert", same: "gleich" },

@@ -25,6 +25,7 @@ export const device = {
     help: "The backup is checked first. Without its passphrase this device's users, certificates and keys are " +
       "kept.",
     file: "File",
+    events: "with the events in it",
     change: "Change",
     changes: "Files of the backup",
     words: { new: "new", changed: "changed", same: "the same" },

@@ -24,6 +24,7 @@ export const device = {
     title: "復元",
     help: "バックアップは最初に検査されます。パスフレーズがない場合、この装置のユーザー、証明書、鍵はそのまま残ります。",
     file: "ファイル",
+    events: "含まれるイベントも復元",
     change: "変更",
     changes: "バックアップのファイル",
     words: { new: "新規", changed: "変更あり", same: "同じ" },
