@@ -63,8 +63,8 @@ class Charts(PageCase):
         before = self.widths()
         self.appliance.stop()
         self.appliance.start()
-        after = eventually("it is measured again", lambda: (
-            widths := self.widths()) and widths[-1] is not None and widths)
+        after = eventually("it is measured again", lambda: next((
+            widths for widths in [self.widths()] if len(widths) > len(before) and widths[-1] is not None), None))
         self.assertEqual(after[:len(before)], before)
         self.assertIn(None, after[len(before):])
         file = self.appliance.folder / "state/figure-history"
