@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <ranges>
 #include <string_view>
 
 namespace orbwatch::app::web {
@@ -15,8 +14,9 @@ char lower(char letter) {
 }
 
 bool contains(std::string_view text, std::string_view part) {
-  const auto found = std::ranges::search(text, part, {}, lower, lower);
-  return part.empty() || !found.empty();
+  const auto is_same = [](char one, char other) { return lower(one) == lower(other); };
+  return part.empty() ||
+         std::search(text.begin(), text.end(), part.begin(), part.end(), is_same) != text.end();
 }
 
 /// Time of the trigger, or of the first frame set; nullopt: not known.
@@ -41,7 +41,8 @@ RecordingsAnswer search_events(const std::vector<RecordedEvent>& events,
   };
   RecordingsAnswer answer;
   answer.total = events.size();
-  for (const RecordedEvent& event : events | std::views::reverse) {
+  for (auto at = events.rbegin(); at != events.rend(); ++at) {
+    const RecordedEvent& event = *at;
     if (!matches(event)) continue;
     ++answer.matching;
     if (!query.before.empty() && event.name >= query.before) continue;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ranges>
 
 namespace orbwatch::app::web::tests {
 namespace {
@@ -56,8 +55,8 @@ TEST_F(EventSearch, FindsEachOnceByPagesFromTheNewest) {
     has_older = page.has_older;
   }
   ASSERT_EQ(names.size(), events.size());
-  EXPECT_TRUE(
-      std::ranges::equal(names, events | std::views::reverse, {}, {}, &RecordedEvent::name));
+  std::ranges::reverse(names);
+  EXPECT_TRUE(std::ranges::equal(names, events, {}, {}, &RecordedEvent::name));
 }
 
 TEST_F(EventSearch, GoesOnAfterAnEventThatIsGone) {
