@@ -3,9 +3,9 @@
 # ORBWATCH_SINCE: the commit to compare with instead of the last whole run's; nothing is drawn then.
 # SPDX-License-Identifier: Apache-2.0
 
-# Folders whose changes require the long gates of alignment.
+# Folders and files whose changes require the long gates of alignment.
 # shellcheck disable=SC2034
-alignment=(app/simulation proc/align proc/optics tests/proc/align tests/support)
+alignment=(app/simulation proc/align proc/optics tests/proc/align tests/support/*.cpp tests/support/*.h)
 
 # passed_at PART: prints the commit at which a part of tests/whole passed last; empty: never.
 passed_at() { awk -F' \\| ' -v part="| $1" '$1 == part && $5 ~ /^passed/ {print $3}' tests/REPORT.md 2>/dev/null || true; }

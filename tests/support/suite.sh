@@ -42,12 +42,11 @@ most_objects=90
 # objects_of FOLDER NAME...: prints the number of objects that the programs consist of.
 objects_of() { ninja -C "$1" -t commands "${@:2}" | grep -c -- ' -c '; }
 
-# affordable FOLDER: of names in order of their importance, those that together stay within most_objects,
-# and always the first.
+# affordable FOLDER: of names in order of their importance, those that together stay within most_objects.
 affordable() {
   local name taken=()
   while read -r name; do
-    ((${#taken[@]} == 0)) || (($(objects_of "$1" "${taken[@]}" "$name") <= most_objects)) || continue
+    (($(objects_of "$1" "${taken[@]}" "$name") <= most_objects)) || continue
     taken+=("$name")
     echo "$name"
   done
