@@ -7,6 +7,7 @@ Folders: app/ports/web/page/files/process app/ports/web/page/files/elements
 import datetime
 import json
 import re
+import time
 import unittest
 import urllib.request
 import zoneinfo
@@ -20,6 +21,7 @@ from appliance import PATIENCE_S, eventually
 from page_case import ZONE, PageCase
 
 CHART = "[data-region=pool] .chart"
+STEP_S = 0.5  # of the history
 
 
 class Charts(PageCase):
@@ -62,6 +64,8 @@ class Charts(PageCase):
         eventually("some steps", lambda: sum(width is not None for width in self.widths()) > 8)
         before = self.widths()
         self.appliance.stop()
+        stopped = time.monotonic()
+        eventually("two steps pass without it", lambda: time.monotonic() > stopped + 2 * STEP_S)
         self.appliance.start()
         after = eventually("it is measured again", lambda: next((
             widths for widths in [self.widths()] if len(widths) > len(before) and widths[-1] is not None), None))
