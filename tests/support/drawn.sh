@@ -30,6 +30,13 @@ draws() {
   ((16#${hash:0:4} % 4 == 0))
 }
 
+# by_turns: names in an order that HEAD's hash draws.
+by_turns() {
+  local name head
+  head=$(git rev-parse HEAD)
+  while read -r name; do echo "$(sha256sum <<<"$head $name") $name"; done | sort | sed 's/.* //'
+}
+
 # due NAME FOLDER...: ends with 0 when NAME is to run: in a whole run (whole=1), when something below a
 # folder changed since the last whole run of $part, or when it is drawn.
 due() {

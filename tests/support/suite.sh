@@ -29,13 +29,6 @@ drawn_preset() {
   echo "${presets[16#${hash:0:4} % 2]}"
 }
 
-# by_turns: names in an order that HEAD's hash draws.
-by_turns() {
-  local name head
-  head=$(git rev-parse HEAD)
-  while read -r name; do echo "$(sha256sum <<<"$head $name") $name"; done | sort | sed 's/.* //'
-}
-
 # Most objects that CI compiles for a sanitizer; all are about twice as many (tests/REPORT.md has their cost).
 most_objects=90
 
