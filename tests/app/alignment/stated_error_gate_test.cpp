@@ -55,7 +55,7 @@ class RestartedSite : public AcceptedAlignments {
   int count_ = 0;
 };
 
-/// What a proposal states at the work piece, and what is true; mm.
+/// Errors at the work piece, stated by a proposal and true; mm.
 struct Judged {
   double stated = 0;
   double error = 0;
@@ -144,7 +144,7 @@ class Installer {
   std::optional<AlignmentDesk> desk_;
 };
 
-/// What one method stated about all rigs.
+/// Errors that one method stated about all rigs.
 struct Statements {
   explicit Statements(const std::string& method)
       : errors(method + ", at the work piece, mm"), shares(method + ", true / stated") {}

@@ -53,10 +53,14 @@ class Served : public testing::Test {
     context.metrics = metrics;
     context.fleet = fleet;
     context.recipes = recipes;
+    serve(context, settings);
+    if (HasFatalFailure()) return;
+    sink->accept(app::tests::make_status());
+  }
+  void serve(const WebContext& context, const WebSettings& settings = {}) {
     sink = std::make_unique<WebSink>(on_a_free_port(settings), context);
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;
-    sink->accept(app::tests::make_status());
   }
   int port() const { return sink->port(); }
 

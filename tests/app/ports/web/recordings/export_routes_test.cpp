@@ -65,11 +65,6 @@ class ExportRoutes : public Served {
     serve(context);
   }
   void TearDown() override { sink.reset(); }  // it writes into the folder
-  void serve(const WebContext& context) {
-    sink = std::make_unique<WebSink>(on_a_free_port(), context);
-    const auto started = sink->start();
-    ASSERT_TRUE(started) << started.error().message;
-  }
   Answer post(const std::string& path, const json& body) const {
     return request(port(), "POST", "/api/v1/" + path, kJsonHeader, body.dump());
   }

@@ -125,11 +125,6 @@ class RecordingRoutes : public Served {
     serve(context);
   }
   void TearDown() override { sink.reset(); }  // it writes into the folder
-  void serve(const WebContext& context) {
-    sink = std::make_unique<WebSink>(on_a_free_port(), context);
-    const auto started = sink->start();
-    ASSERT_TRUE(started) << started.error().message;
-  }
   json list() const { return json::parse(get(port(), "/api/v1/recordings").body); }
   Answer post(const std::string& path, const json& body) const {
     return request(port(), "POST", path, kJsonHeader, body.dump());
