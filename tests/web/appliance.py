@@ -95,6 +95,20 @@ class Appliance:
                 return True
         return self.says(answers)
 
+    def tale(self):
+        """End of the daemon's log, what each of its threads waits for, and its status, for people who look for the
+        cause of a failure."""
+        lines = (self.folder / "log").read_text(encoding="utf-8", errors="replace").splitlines()
+        threads = []
+        for task in sorted(pathlib.Path(f"/proc/{self.daemon.pid}/task").glob("*")):
+            name, waits = ((task / file).read_text().strip() for file in ("comm", "wchan"))
+            threads.append(f"{name}: {waits}")
+        try:
+            status = self.status()["system"]
+        except (OSError, ValueError, KeyError) as error:
+            status = f"no status: {error}"
+        return "\n".join([f"daemon's exit code: {self.daemon.poll()}", *lines[-20:], *threads, str(status)])
+
     def stop(self):
         self.daemon.send_signal(signal.SIGTERM)
         self.daemon.wait(PATIENCE_S)

@@ -2,6 +2,7 @@
 """A browser for each case, one running daemon for all cases of a class."""
 
 import datetime
+import sys
 import unittest
 import zoneinfo
 
@@ -25,6 +26,15 @@ class PageCase(unittest.TestCase):
         cls.appliance = cls.make_appliance()
         cls.addClassCleanup(cls.appliance.close)
         cls.appliance.start()
+
+    def run(self, result=None):
+        """Says after a case that failed what the appliance did."""
+        result = result or self.defaultTestResult()
+        before = len(result.failures) + len(result.errors)
+        super().run(result)
+        if len(result.failures) + len(result.errors) > before:
+            print(self.appliance.tale(), file=sys.stderr)
+        return result
 
     def setUp(self):
         self.browser = Browser(self.ARGUMENTS)
