@@ -158,12 +158,12 @@ struct Pixels {
 };
 
 /// Samples a window of rows that are `stride` apart, or two.
-template <Layout layout, Kept kept>
+template <Layout layout, Kept kept, Part part>
 [[gnu::always_inline]] inline Pixels sample(const std::uint8_t* from, const std::uint8_t* beside,
                                             std::ptrdiff_t stride, const Places& places) {
   constexpr int kSamples = info(layout).samples;
   Rows rows[info(layout).out_bytes()];
-  interpolate_rows<layout, kept != Kept::All>(from, beside, stride, places, rows);
+  interpolate_rows<layout, kept != Kept::All, part>(from, beside, stride, places, rows);
   if constexpr (info(layout).sample_bytes == 2) {
     return {sample16(rows[0], rows[1], places.v), _mm256_setzero_si256()};
   } else {
@@ -294,7 +294,7 @@ struct BlockAt {
 };
 
 /// Makes a block from `first`; if not all of its pixels are kept, from `second` too.
-template <Layout layout, Kept kept>
+template <Layout layout, Kept kept, Part part>
 [[gnu::always_inline]] inline Pixels make_block(const TileJob& job, const BlockAt& first,
                                                 const BlockAt& second, __m256i lanes_u,
                                                 __m256i lanes_v) {
@@ -304,9 +304,9 @@ template <Layout layout, Kept kept>
   };
   const Places places(_mm256_add_epi16(lanes_u, place(first.place_u(), second.place_u())),
                       _mm256_add_epi16(lanes_v, place(first.place_v(), second.place_v())),
-                      Tables<info(layout).pixel_bytes, kOfTwo>::kByHalves);
-  Pixels pixels = sample<layout, kept>(first.window<layout>(job), second.window<layout>(job),
-                                       job.source.stride, places);
+                      Tables<info(layout).pixel_bytes, kOfTwo, part.columns>::kByHalves);
+  Pixels pixels = sample<layout, kept, part>(first.window<layout>(job), second.window<layout>(job),
+                                             job.source.stride, places);
   if constexpr (kept == Kept::EvenColumns) {
     // Rows of two pixels from each half.
     const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
@@ -319,7 +319,7 @@ template <Layout layout, Kept kept>
 /// Fills one row of blocks; block (0, y) has the lanes that u and v start from. If not all pixels
 /// are kept, blocks are made from pairs of blocks: two side by side, or this row's and the next
 /// one's.
-template <Layout layout, int blocks_x, Kept kept>
+template <Layout layout, int blocks_x, Kept kept, Part part>
 void fill_row(const TileJob& job, const BlockRow* row, const Shape& u, const Shape& v,
               std::uint8_t* out) {
   constexpr int kOutBytes = info(layout).out_bytes(), kStep = kept == Kept::EvenColumns ? 2 : 1;
@@ -334,8 +334,8 @@ void fill_row(const TileJob& job, const BlockRow* row, const Shape& u, const Sha
 #pragma GCC unroll 4
     for (int k = 0; k < kCount; ++k) {
       const int block = kStep * (x + k);
-      pixels[k] = make_block<layout, kept>(job, {row[0], block}, {row[kBelow], block + kBeside},
-                                           lanes_u, lanes_v);
+      pixels[k] = make_block<layout, kept, part>(job, {row[0], block},
+                                                 {row[kBelow], block + kBeside}, lanes_u, lanes_v);
       lanes_u = _mm256_add_epi16(lanes_u, u.along_x);
       lanes_v = _mm256_add_epi16(lanes_v, v.along_x);
     }
@@ -348,7 +348,7 @@ void fill_row(const TileJob& job, const BlockRow* row, const Shape& u, const Sha
   }
 }
 
-template <Layout layout, int blocks_x, Kept kept>
+template <Layout layout, int blocks_x, Kept kept, Part part>
 void fill_rows(const TileJob& job) {
   BlockRow rows[kMostRows];
   walk(job.map, rows);
@@ -361,20 +361,36 @@ void fill_rows(const TileJob& job) {
   std::uint8_t* out = job.target.data;
   constexpr int kStep = kept == Kept::EvenRows ? 2 : 1;
   for (int y = 0; y < job.map.blocks_y; y += kStep) {
-    fill_row<layout, blocks_x, kept>(job, &rows[y], u, v, out);
+    fill_row<layout, blocks_x, kept, part>(job, &rows[y], u, v, out);
     u.start = _mm256_add_epi16(u.start, u.along_y);
     v.start = _mm256_add_epi16(v.start, v.along_y);
     out += kBlock * job.target.stride;
   }
 }
 
-template <Layout layout, Kept kept = Kept::All>
-void fill_tile(const TileJob& job) {
-  if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks, kept>(job);
-  if constexpr (kept == Kept::All) {
-    if (job.map.blocks_x == 1) return fill_rows<layout, 1, kept>(job);
+/// Fills a tile from as little of the windows as it needs.
+template <Layout layout, int blocks_x, Kept kept>
+void fill(const TileJob& job) {
+  const bool has_few_rows = job.map.is_within(kWindow, kFewRows);
+  if constexpr (info(layout).pixel_bytes == 3) {
+    if (job.map.is_within(kFewColumns, kWindow)) {
+      constexpr Part kFew{kFewColumns, kFewRows}, kNarrow{kFewColumns, kWindow};
+      return has_few_rows ? fill_rows<layout, blocks_x, kept, kFew>(job)
+                          : fill_rows<layout, blocks_x, kept, kNarrow>(job);
+    }
   }
-  fill_rows<layout, kMostBlocks / 2, kept>(job);
+  constexpr Part kLow{kWindow, kFewRows};
+  has_few_rows ? fill_rows<layout, blocks_x, kept, kLow>(job)
+               : fill_rows<layout, blocks_x, kept, kWhole>(job);
+}
+
+template <Layout layout, Kept kept>
+void fill_tile(const TileJob& job) {
+  if (job.map.blocks_x == kMostBlocks) return fill<layout, kMostBlocks, kept>(job);
+  if constexpr (kept == Kept::All) {
+    if (job.map.blocks_x == 1) return fill_rows<layout, 1, kept, kWhole>(job);
+  }
+  fill<layout, kMostBlocks / 2, kept>(job);
 }
 
 template <Kept kept>

@@ -10,7 +10,6 @@ namespace {
 constexpr int kScaleBits = PatchRow::kScaleBits;
 constexpr int kSlopeBits = UvQuadratic::kSlopeBits;
 constexpr int kSlopeShift = kScaleBits - kSlopeBits;
-constexpr std::int32_t kPixel = 1 << (kFractionBits + kSlopeBits);
 constexpr int kLast = kBlock - 1;
 
 // Shift from Q24 to Q18. More curvature would overflow 16 bit lanes (3 * 3 * 3584 < 2^15), and is
@@ -26,7 +25,7 @@ UvXy32 above_zero(UvXy32 value) { return value > 0 ? value : 0; }
 
 /// Bounds of the pixels of any block relative to its corner, Q20: least u and v, greatest u and v.
 /// Room for rounding is included.
-UvXy32 reach(const UvQuadratic& map, int columns, int rows) {
+UvXy32 reach_of(const UvQuadratic& map, int columns, int rows) {
   // From a corner to pixel (i, j) it is i (slope_x + i xx + j xy / 2) + j (slope_y + j yy + i xy /
   // 2): the slopes up to 3/2, that is less than 2, pixels beyond the last corner, which is 2 before
   // the blocks' end; for both axes the longer one's.
@@ -40,15 +39,13 @@ UvXy32 reach(const UvQuadratic& map, int columns, int rows) {
   return kLast * sum + UvXy32{-kSlack, -kSlack, kSlack, kSlack};
 }
 
-bool fits(const UvQuadratic& map, UvXy32 pixels) {
+/// True: the curvature fits into lanes.
+bool is_flat_enough(const UvQuadratic& map) {
   using Unsigned [[gnu::vector_size(16)]] = std::uint32_t;
   const auto is_too_curved = [](UvXy32 value) {
     return reinterpret_cast<Unsigned>(value + kMostCurvature) > 2 * kMostCurvature;
   };
-  // A place is within the window's first pixel, the right or lower neighbour one further.
-  const UvXy32 low = __builtin_shufflevector(pixels, pixels, 0, 1, 0, 1);
-  const UvXy32 too_much =
-      (pixels - low > (kWindow - 2) * kPixel) | is_too_curved(map.curve) | is_too_curved(map.cross);
+  const UvXy32 too_much = is_too_curved(map.curve) | is_too_curved(map.cross);
   const Uv64 any = reinterpret_cast<Uv64>(too_much);
   return (any[0] | any[1]) == 0;
 }
@@ -121,8 +118,9 @@ PointAxis point_axis(const Quadratic& axis) {
 
 bool BlockMap::fit(const Patch& patch, int columns, int rows, const Uv64& rounding) {
   const UvQuadratic& map = patch.axes();
-  const UvXy32 pixels = reach(map, columns, rows);
-  if (!fits(map, pixels)) return false;
+  const UvXy32 pixels = reach_of(map, columns, rows);
+  reach = {pixels[2] - pixels[0], pixels[3] - pixels[1]};
+  if (!is_within(kWindow, kWindow) || !is_flat_enough(map)) return false;
 
   constexpr int kRowShift = kFractionBits - kRowFractionBits;
   const UvXy32 low = pixels >> kSlopeBits;

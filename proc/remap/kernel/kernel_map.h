@@ -52,8 +52,16 @@ inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
 struct BlockMap {
   WindowWalk windows;
   LaneShape lanes;
-  int blocks_x;  ///< 1, 2 or 4
-  int blocks_y;  ///< 1 to 8
+  int blocks_x;                  ///< 1, 2 or 4
+  int blocks_y;                  ///< 1 to 8
+  AxisPair<std::int32_t> reach;  ///< from the first to the last pixel of any block, at most; Q20
+
+  /// True: no block needs more of its window than these columns and rows, neighbours included.
+  bool is_within(int columns, int rows) const {
+    // A place is within the window's first pixel, the right or lower neighbour one further.
+    constexpr int kReachBits = kFractionBits + UvQuadratic::kSlopeBits;
+    return reach.u <= (columns - 2) << kReachBits && reach.v <= (rows - 2) << kReachBits;
+  }
 
   /// Sets the map to a patch's first pixels, 4, 8 or 16 columns and a multiple of 4 rows, at
   /// most 32. False, and then undefined, when the patch is too steep or curved: a block would not

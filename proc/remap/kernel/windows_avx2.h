@@ -72,12 +72,21 @@ struct Rows {
   __m256i top, bottom;
 };
 
+/// Part of the windows that a tile's blocks need, from the first pixel on: less takes fewer tables,
+/// and five pixels of three bytes fewer steps to sort them.
+struct Part {
+  int columns = kWindow, rows = kWindow;
+};
+inline constexpr Part kWhole;
+inline constexpr int kFewColumns = 5, kFewRows = 6;
+
 /// Two rows of a window of each channel, 8 bytes each: tables for vpshufb, of one window in both
 /// halves, or `of_two` windows.
-template <int pixel_bytes, bool of_two>
+template <int pixel_bytes, bool of_two, int columns>
 struct Tables {
+  static constexpr bool kFives = pixel_bytes == 3 && columns == kFewColumns;
   /// True for tables of left halves of both rows and then their right halves.
-  static constexpr bool kByHalves = pixel_bytes > 2;
+  static constexpr bool kByHalves = pixel_bytes > 2 && !kFives;
 
   __m256i channels[pixel_bytes];
 
@@ -94,13 +103,24 @@ struct Tables {
         channels[0] = _mm256_blend_epi32(channels[0], other, 0xf0);
       }
     } else if constexpr (pixel_bytes == 2) {
-      const auto row = [](const std::uint8_t* lower, const std::uint8_t* upper) {
-        const __m256i one = _mm256_broadcastsi128_si256(load128(lower));
-        return by_channel(of_two ? _mm256_inserti128_si256(one, load128(upper), 1) : one);
-      };
-      const __m256i first = row(from, beside), second = row(from + stride, beside + stride);
+      const __m256i first = by_channel(row(from, beside));
+      const __m256i second = by_channel(row(from + stride, beside + stride));
       channels[0] = _mm256_unpacklo_epi64(first, second);
       channels[1] = _mm256_unpackhi_epi64(first, second);
+    } else if constexpr (kFives) {
+      const auto sorted = [](__m256i pixels, __m128i order) {
+        return _mm256_shuffle_epi8(pixels, _mm256_broadcastsi128_si256(order));
+      };
+      constexpr char no = -1;
+      const __m128i two = _mm_setr_epi8(0, 3, 6, 9, 12, no, no, no, 1, 4, 7, 10, 13, no, no, no);
+      const __m128i last =
+          _mm_setr_epi8(2, 5, 8, 11, 14, no, no, no, no, no, no, no, no, no, no, no);
+      const __m128i below =
+          _mm_setr_epi8(no, no, no, no, no, no, no, no, 2, 5, 8, 11, 14, no, no, no);
+      const __m256i first = row(from, beside), second = row(from + stride, beside + stride);
+      channels[0] = _mm256_unpacklo_epi64(sorted(first, two), sorted(second, two));
+      channels[1] = _mm256_unpackhi_epi64(sorted(first, two), sorted(second, two));
+      channels[2] = _mm256_or_si256(sorted(first, last), sorted(second, below));
     } else {
       const Quarters here(from, stride);
       if constexpr (of_two) {
@@ -117,6 +137,11 @@ struct Tables {
   }
 
  private:
+  /// The first 16 bytes of one window's row in both halves, or of two.
+  static __m256i row(const std::uint8_t* lower, const std::uint8_t* upper) {
+    const __m256i one = _mm256_broadcastsi128_si256(load128(lower));
+    return of_two ? _mm256_inserti128_si256(one, load128(upper), 1) : one;
+  }
   /// Four pixels of both rows in each half, 8 bytes of a channel after another.
   struct Quarters {
     __m256i low, high;  ///< channels 0 and 1, 2 and 3
@@ -161,7 +186,7 @@ struct Tables {
 
 /// Interpolates along u all channels that the layout reads of a window, 8 rows that are `stride`
 /// apart; for the upper halves, of the window `beside`, if `of_two`.
-template <Layout layout, bool of_two>
+template <Layout layout, bool of_two, Part part>
 [[gnu::always_inline]] inline void interpolate_rows(const std::uint8_t* from,
                                                     const std::uint8_t* beside,
                                                     std::ptrdiff_t stride, const Places& places,
@@ -169,7 +194,7 @@ template <Layout layout, bool of_two>
   constexpr int kChannels = info(layout).out_bytes(), kBytes = info(layout).pixel_bytes;
   constexpr int kFirst = info(layout).first, kEvery = info(layout).every;
   const auto tables = [&](int row) __attribute__((always_inline)) {
-    return Tables<kBytes, of_two>(from + row * stride, beside + row * stride, stride);
+    return Tables<kBytes, of_two, part.columns>(from + row * stride, beside + row * stride, stride);
   };
   // A lookup in the first or last table hits its neighbour too. Those tables are therefore the
   // exclusive or of both, and the results are combined by exclusive or.
@@ -186,18 +211,26 @@ template <Layout layout, bool of_two>
                                   _mm256_shuffle_epi8(near, places.lower[1]));
     }
   }
-  const auto third = tables(4), fourth = tables(6);
+  const auto third = tables(4);
+  const auto add = [](__m256i& sum, __m256i a) { sum = _mm256_xor_si256(sum, a); };
 #pragma GCC unroll 4
   for (int k = 0; k < kChannels; ++k) {
     const __m256i near = third.channels[kFirst + k * kEvery];
-    const __m256i far = _mm256_xor_si256(near, fourth.channels[kFirst + k * kEvery]);
-    const auto add = [](__m256i& sum, __m256i a, __m256i b) {
-      sum = _mm256_xor_si256(sum, _mm256_xor_si256(a, b));
-    };
-    add(upper[k], _mm256_shuffle_epi8(near, places.upper[2]),
-        _mm256_shuffle_epi8(far, places.upper[3]));
-    add(lower[k], _mm256_shuffle_epi8(near, places.lower[2]),
-        _mm256_shuffle_epi8(far, places.lower[3]));
+    add(upper[k], _mm256_shuffle_epi8(near, places.upper[2]));
+    add(lower[k], _mm256_shuffle_epi8(near, places.lower[2]));
+  }
+  if constexpr (part.rows > kFewRows) {
+    const auto fourth = tables(6);
+#pragma GCC unroll 4
+    for (int k = 0; k < kChannels; ++k) {
+      const int channel = kFirst + k * kEvery;
+      const __m256i far = _mm256_xor_si256(third.channels[channel], fourth.channels[channel]);
+      add(upper[k], _mm256_shuffle_epi8(far, places.upper[3]));
+      add(lower[k], _mm256_shuffle_epi8(far, places.lower[3]));
+    }
+  }
+#pragma GCC unroll 4
+  for (int k = 0; k < kChannels; ++k) {
     rows[k] = {_mm256_maddubs_epi16(upper[k], places.across),
                _mm256_maddubs_epi16(lower[k], places.across)};
   }

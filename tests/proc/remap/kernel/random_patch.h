@@ -27,14 +27,17 @@ class RandomPatch {
   }
   remap::Patch patch() const { return {u_, v_}; }
 
-  /// The steepest patch of this shape that still fits, to the last bit.
-  remap::Patch steepest(int blocks_x, int blocks_y) const {
+  /// The steepest patch of this shape that still fits, to the last bit, into these columns and rows
+  /// of its windows.
+  remap::Patch steepest(int blocks_x, int blocks_y, int columns = remap::kWindow,
+                        int rows = remap::kWindow) const {
     std::int64_t fits = 0, too_steep = largest_factor();
     while (too_steep - fits > 1) {
       const std::int64_t middle = (fits + too_steep) / 2;
       remap::BlockMap map;
       const bool fit = map.fit(scaled(middle), remap::kBlock * blocks_x, remap::kBlock * blocks_y,
-                               remap::BlockMap::rounding(0, 0));
+                               remap::BlockMap::rounding(0, 0)) &&
+                       map.is_within(columns, rows);
       (fit ? fits : too_steep) = middle;
     }
     return scaled(fits);
