@@ -25,6 +25,21 @@ std::vector<Area> squares(const Area& whole, int size) {
 
 }  // namespace
 
+/// Lines of sight of an area.
+struct TileIndex::Sights {
+  std::vector<Ray> direct, mirrored;
+
+  void add(const Sight& sight) {
+    direct.push_back(sight.direct);
+    if (sight.on_ball()) mirrored.push_back(sight.mirrored);
+  }
+  void add(const Sights& more) {
+    direct.insert(direct.end(), more.direct.begin(), more.direct.end());
+    mirrored.insert(mirrored.end(), more.mirrored.begin(), more.mirrored.end());
+  }
+  SightBundle bundle() const { return {RayBundle(direct), RayBundle(mirrored)}; }
+};
+
 TileIndex::TileIndex(const Pinhole& camera, const Sphere& ball,
                      std::span<const optics::Vec2> points) {
   for (const Area& area : squares({0, 0, camera.width, camera.height}, kBlock)) {
@@ -32,26 +47,23 @@ TileIndex::TileIndex(const Pinhole& camera, const Sphere& ball,
     for (const Area& tile : squares(area, kTile)) tiles_.push_back({tile, {}});
     blocks_.push_back({area, first, tiles_.size(), {}});
   }
-  const auto bundle = [&](const Area& area) {
-    std::vector<Ray> direct;
-    std::vector<Ray> mirrored;
-    for (int v = area.top; v < area.bottom; ++v) {
-      for (int u = area.left; u < area.right; ++u) {
-        for (const optics::Vec2& point : points) {
-          const Sight sight = sight_along(camera.ray_through(u + point.u, v + point.v), ball);
-          direct.push_back(sight.direct);
-          if (sight.on_ball()) mirrored.push_back(sight.mirrored);
-        }
-      }
-    }
-    return SightBundle{RayBundle(direct), RayBundle(mirrored)};
-  };
   parallel_for(static_cast<int>(blocks_.size()), [&](int i) {
     Block& block = blocks_[static_cast<std::size_t>(i)];
-    block.sights = bundle(block.area);
+    Sights of_block;
     for (std::size_t t = block.first_tile; t < block.end_tile; ++t) {
-      tiles_[t].sights = bundle(tiles_[t].area);
+      Sights of_tile;
+      const Area& area = tiles_[t].area;
+      for (int v = area.top; v < area.bottom; ++v) {
+        for (int u = area.left; u < area.right; ++u) {
+          for (const optics::Vec2& point : points) {
+            of_tile.add(sight_along(camera.ray_through(u + point.u, v + point.v), ball));
+          }
+        }
+      }
+      of_block.add(of_tile);
+      tiles_[t].sights = of_tile.bundle();
     }
+    block.sights = of_block.bundle();
   });
 }
 

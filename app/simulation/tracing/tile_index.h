@@ -49,6 +49,7 @@ class TileIndex {
       return {things.meeting(direct, among.direct), things.meeting(mirrored, among.mirrored)};
     }
   };
+  struct Sights;
   struct Tile {
     Area area;
     SightBundle sights;
