@@ -12,6 +12,7 @@
 
 #include "app/cli/backup/backup_file.h"
 #include "app/cli/backup/collect.h"
+#include "app/cli/backup/event_room.h"
 #include "app/cli/backup/kept_events.h"
 #include "app/cli/backup/passphrase.h"
 #include "app/cli/command.h"
@@ -68,7 +69,11 @@ Result<Collected> collected(const fs::path& config, bool with_events) {
     manifest.left_out.emplace_back("kept events: the configuration has no folder in [recorder]");
     return Collected{std::move(*backup)};
   }
-  auto events = backup::kept_events(recorder.folder, manifest.left_out);
+  auto events = recorder::EventFolder(recorder.folder)
+                    .list()
+                    .and_then([&](std::vector<recorder::StoredEvent> all) {
+                      return backup::kept_events(std::move(all), manifest.left_out);
+                    });
   if (!events) return tl::unexpected(events.error());
   manifest.events = backup::manifest_events(*events);
   return Collected{std::move(*backup), std::move(*events),

@@ -162,7 +162,7 @@ Result<> DiskChanges::make_folder(const fs::path& folder) {
   const int made = ::mkdir(folder.c_str(), above.st_mode & kModes);
   ::umask(mask);
   if (made != 0) return cannot(folder, "made");
-  // Whoever may write above could put a link in its place meanwhile.
+  // A user who may write above could put a link in its place meanwhile.
   const hal::FileDescriptor opened(
       ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   struct stat about {};

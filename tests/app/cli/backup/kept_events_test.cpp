@@ -3,16 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "app/cli/archive/compression.h"
-#include "app/cli/archive/tar.h"
-#include "app/ports/recorder/events/event_summary.h"
-#include "tests/app/cli/backup/site.h"
-#include "tests/support/service_user.h"
+#include "tests/app/cli/backup/recorded_events.h"
 
 namespace orbwatch::app::cli::backup {
 namespace {
@@ -20,191 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr const char* kFirst = "20261128T092200.125Z-alarm";
-constexpr const char* kSecond = "20261128T092300.000Z-command-2";
-
-class KeptEvents : public testing::Test {
- protected:
-  KeptEvents() {
-    write_file(old / kFirst / recorder::kEventFile, std::string(300'000, 'm'));
-    write_file(old / kFirst / recorder::kEventSummary, "{}");
-    write_file(old / kFirst / recorder::kEventPicture, "picture");
-    write_file(old / kFirst / recorder::kEventPin, "");
-    write_file(old / kSecond / recorder::kEventFile, std::string(512, 'n'));
-    write_file(old / kSecond / recorder::kEventPin, "");
-    write_file(old / "20261128T092400.000Z-alarm" / recorder::kEventFile, "not kept");
-    write_file(old / "20261128T092500.000Z-alarm.unfinished" / recorder::kEventPin, "");
-    fs::create_directories(folder / "new");
-  }
-
-  std::vector<recorder::StoredEvent> kept() const {
-    std::vector<std::string> left_out;
-    auto events = kept_events(folder / "old", left_out);
-    EXPECT_TRUE(left_out.empty());
-    EXPECT_TRUE(events) << events.error().message;
-    return events.value_or(std::vector<recorder::StoredEvent>());
-  }
-  std::string frame() const {
-    std::string bytes;
-    EXPECT_TRUE(
-        write_events(kept(), manifest_events(kept()), [&](std::string_view part) -> Result<> {
-          bytes += part;
-          return {};
-        }));
-    return bytes;
-  }
-  static std::string frame_of(const Archive& archive) {
-    return tar_of(archive, {})
-        .and_then([](const std::string& tar) { return compressed(tar); })
-        .value_or("");
-  }
-  /// Restores frames on the new device; returns the reason against it. Checking says the same.
-  std::string place(const std::string& bytes, const std::vector<ManifestEvent>& events,
-                    std::uint64_t reserve = 0) {
-    FrameReader checked = frames_of(bytes), frames = frames_of(bytes);
-    if (!checked.next().value_or(false) || !frames.next().value_or(false)) return "no frame";
-    const EventPlace place{folder / "new", reserve};
-    const auto right = check_frames(checked, events, place);
-    DiskChanges disk;
-    const auto placed = place_events(frames, events, place, disk);
-    EXPECT_EQ(right ? "" : right.error().message, placed ? "" : placed.error().message);
-    return placed ? "" : placed.error().message;
-  }
-  /// Names below the events of the new device.
-  std::vector<std::string> restored() const {
-    std::vector<std::string> names;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder / "new/events", none)) {
-      names.push_back(entry.path().filename().string());
-    }
-    std::ranges::sort(names);
-    return names;
-  }
-
-  tests::TemporaryFolder folder;
-  const fs::path old = folder / "old/events";
-};
-
-TEST_F(KeptEvents, AreRestoredWithAllTheirFiles) {
-  const auto events = manifest_events(kept());
-  EXPECT_THAT(events, ElementsAre(ManifestEvent{kFirst, 300'009}, ManifestEvent{kSecond, 512}));
-  EXPECT_EQ(missing_events(events, {folder / "new", 0}).size(), 2U);
-  EXPECT_EQ(place(frame(), events), "");
-  EXPECT_THAT(restored(), ElementsAre(kFirst, kSecond));
-  for (const char* event : {kFirst, kSecond}) {
-    FileStates was = states_below(old / event), is = states_below(folder / "new/events" / event);
-    for (auto* states : {&was, &is}) {
-      for (auto& [name, state] : *states) state.second = 0;  // the mode is that of the folder
-    }
-    EXPECT_EQ(is, was);
-  }
-  EXPECT_TRUE(missing_events(events, {folder / "new", 0}).empty());
-}
-
-TEST_F(KeptEvents, ThatAreThereStayAsTheyAre) {
-  write_file(folder / "new/events" / kFirst / recorder::kEventFile, "another");
-  EXPECT_EQ(place(frame(), manifest_events(kept())), "");
-  EXPECT_EQ(states_below(folder / "new/events" / kFirst).at(recorder::kEventFile).first, "another");
-  EXPECT_THAT(restored(), ElementsAre(kFirst, kSecond));
-}
-
-TEST_F(KeptEvents, OfAFrameThatIsCutOffAppearAsAWholeOrNotAtAll) {
-  const std::string whole = frame();
-  const auto events = manifest_events(kept());
-  for (std::size_t size = 1; size < whole.size(); ++size) {
-    EXPECT_NE(place(whole.substr(0, size), events), "") << size;
-    for (const std::string& name : restored()) {
-      const auto states = states_below(folder / "new/events" / name);
-      EXPECT_EQ(states.size(), states_below(old / name).size()) << name;
-    }
-    fs::remove_all(folder / "new/events");
-  }
-}
-
-TEST_F(KeptEvents, OfAnotherFormAreRefused) {
-  const std::string event = std::string("events/") + kFirst + "/";
-  const std::vector<ManifestEvent> stated{{kFirst, 4}};
-  const ArchivedFile recording{event + recorder::kEventFile, "mcap"};
-  ASSERT_EQ(place(frame_of({recording}), stated), "");
-  fs::remove_all(folder / "new/events");
-  const std::vector<Archive> wrong{
-      {},
-      {{event + recorder::kEventFile, "mca"}},
-      {{event + recorder::kEventFile, "mcap."}},
-      {{event + recorder::kEventSummary, "json"}},
-      {{event + "other.txt", "mcap"}},
-      {{event + "sub/event.mcap", "mcap"}},
-      {{std::string("events/") + kSecond + "/event.mcap", "mcap"}},
-      {{"event.mcap", "mcap"}},
-      {recording, {event + recorder::kEventPicture, "x"}},
-      {recording, {std::string("events/") + kSecond + "/event.mcap", ""}},
-      {{event + recorder::kEventPin, ""}, {event + recorder::kEventPin, ""}, recording}};
-  for (std::size_t n = 0; n < wrong.size(); ++n) {
-    EXPECT_THAT(place(frame_of(wrong[n]), stated), HasSubstr("damaged")) << n;
-    fs::remove_all(folder / "new/events");
-  }
-  EXPECT_THAT(place(frame_of({recording}) + frame_of({recording}), stated), HasSubstr("damaged"));
-}
-
-TEST(KeptEventsList, HasNamesOfEventsInOrderAndOnceEach) {
-  EXPECT_TRUE(check_events({}));
-  EXPECT_TRUE(check_events({{kFirst, 1}, {kSecond, 1}}));
-  EXPECT_FALSE(check_events({{kSecond, 1}, {kFirst, 1}}));
-  EXPECT_FALSE(check_events({{kFirst, 1}, {kFirst, 1}}));
-  for (const char* name : {"", "..", "../../etc", "20261128T092200.125Z-alarm/..", "a/b",
-                           "20261128T092200.125Z-alarm.unfinished"}) {
-    EXPECT_FALSE(check_events({{name, 1}})) << name;
-  }
-}
-
-TEST_F(KeptEvents, LeaveTheReserveOfTheDisk) {
-  EXPECT_THAT(place(frame(), manifest_events(kept()), std::uint64_t{1} << 60),
-              HasSubstr("has no room for the events: 1099511627777 MiB are needed"));
-  EXPECT_THAT(place(frame(), {{kFirst, ~std::uint64_t{0}}, {kSecond, 1}}), HasSubstr("too large"));
-  EXPECT_THAT(restored(), ElementsAre());
-}
-
-TEST_F(KeptEvents, AppearOnlyWhenTheirChecksumIsRight) {
-  std::string bytes = frame();
-  bytes[200] = static_cast<char>(bytes[200] ^ 1);
-  EXPECT_NE(place(bytes, manifest_events(kept())), "");
-  EXPECT_THAT(restored(), ElementsAre());
-  EXPECT_EQ(place(frame(), manifest_events(kept())), "");
-}
-
-TEST_F(KeptEvents, BelongToTheOwnerOfTheRecordingsAndAreWrittenWithItsRights) {
-  ORBWATCH_WITHOUT_ROOT_SKIPPED();
-  fs::permissions(folder.path(), fs::perms(0755));
-  tests::give_to_service(folder / "new");
-  EXPECT_EQ(place(frame(), manifest_events(kept())), "");
-  struct stat about {};
-  ASSERT_EQ(::stat((folder / "new/events" / kFirst / recorder::kEventFile).c_str(), &about), 0);
-  EXPECT_EQ(about.st_uid, tests::kService);
-  EXPECT_EQ(about.st_gid, tests::kService);
-
-  fs::remove_all(folder / "new/events");
-  fs::create_directories(folder / "of-root");
-  fs::create_directory_symlink(folder / "of-root", folder / "new/events");
-  FrameReader frames = frames_of(frame());
-  ASSERT_TRUE(frames.next().value_or(false));
-  DiskChanges disk;
-  const auto led = place_events(frames, manifest_events(kept()), {folder / "new", 0}, disk);
-  ASSERT_FALSE(led);
-  EXPECT_THAT(led.error().message, HasSubstr("Permission denied"));
-  EXPECT_TRUE(fs::is_empty(folder / "of-root"));
-}
-
-TEST_F(KeptEvents, MayHaveMissingFoldersAboveThem) {
-  fs::remove_all(folder / "new");
-  FrameReader frames = frames_of(frame());
-  ASSERT_TRUE(frames.next().value_or(false));
-  DiskChanges disk;
-  const EventPlace deeper{folder / "new/a/b", 0};
-  const auto placed = place_events(frames, manifest_events(kept()), deeper, disk);
-  EXPECT_TRUE(placed) << placed.error().message;
-  EXPECT_TRUE(fs::exists(folder / "new/a/b/events" / kFirst / recorder::kEventFile));
-}
+using KeptEvents = EventsOfADevice;
 
 TEST_F(KeptEvents, ThatChangeMeanwhileEndTheBackup) {
   const auto events = kept();
@@ -226,15 +37,21 @@ TEST_F(KeptEvents, ThatChangeMeanwhileEndTheBackup) {
 TEST_F(KeptEvents, WithoutARecordingAreLeftOut) {
   fs::remove(old / kSecond / recorder::kEventFile);
   std::vector<std::string> left_out;
-  const auto events = kept_events(folder / "old", left_out);
+  const auto events = kept_events(listed(), left_out);
   ASSERT_TRUE(events);
   EXPECT_EQ(events->size(), 1U);
   EXPECT_THAT(left_out, ElementsAre(HasSubstr("has no event.mcap")));
 }
 
-TEST(KeptEventsList, IsEmptyWithoutRecordings) {
+TEST_F(KeptEvents, ThatWereRemovedMeanwhileAreLeftOut) {
+  const auto all = listed();
+  fs::remove_all(old / kSecond);
   std::vector<std::string> left_out;
-  EXPECT_EQ(kept_events("/nonexistent/recordings", left_out)->size(), 0U);
+  const auto events = kept_events(all, left_out);
+  ASSERT_TRUE(events) << events.error().message;
+  ASSERT_EQ(events->size(), 1U);
+  EXPECT_EQ(events->front().name, kFirst);
+  EXPECT_THAT(left_out, ElementsAre());
 }
 
 }  // namespace
