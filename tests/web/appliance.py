@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A daemon with the simulated machine and its page on a port of its own."""
 
+import contextlib
+import http.client
 import json
 import os
 import pathlib
@@ -95,17 +97,21 @@ class Appliance:
                 return True
         return self.says(answers)
 
-    def tale(self):
-        """End of the daemon's log, what each of its threads waits for, and its status, for people who look for the
-        cause of a failure."""
-        lines = (self.folder / "log").read_text(encoding="utf-8", errors="replace").splitlines()
+    def diagnosis(self):
+        """End of the daemon's log, what each of its threads waits for, and its status. Never fails, so that the
+        failure is reported that it belongs to."""
+        log = self.folder / "log"
+        if self.daemon is None or not log.exists():
+            return "the daemon was not started"
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
         threads = []
         for task in sorted(pathlib.Path(f"/proc/{self.daemon.pid}/task").glob("*")):
-            name, waits = ((task / file).read_text().strip() for file in ("comm", "wchan"))
-            threads.append(f"{name}: {waits}")
+            with contextlib.suppress(OSError):  # the thread has ended
+                name, waits = ((task / file).read_text().strip() for file in ("comm", "wchan"))
+                threads.append(f"{name}: {waits}")
         try:
             status = self.status()["system"]
-        except (OSError, ValueError, KeyError) as error:
+        except (OSError, ValueError, KeyError, http.client.HTTPException) as error:
             status = f"no status: {error}"
         return "\n".join([f"daemon's exit code: {self.daemon.poll()}", *lines[-20:], *threads, str(status)])
 

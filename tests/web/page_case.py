@@ -28,12 +28,12 @@ class PageCase(unittest.TestCase):
         cls.appliance.start()
 
     def run(self, result=None):
-        """Says after a case that failed what the appliance did."""
+        """Prints the appliance's diagnosis after a case that failed."""
         result = result or self.defaultTestResult()
         before = len(result.failures) + len(result.errors)
         super().run(result)
         if len(result.failures) + len(result.errors) > before:
-            print(self.appliance.tale(), file=sys.stderr)
+            print(self.appliance.diagnosis(), file=sys.stderr)
         return result
 
     def setUp(self):

@@ -12,8 +12,8 @@
 
 #include "app/cli/backup/backup_file.h"
 #include "app/cli/backup/collect.h"
-#include "app/cli/backup/event_room.h"
-#include "app/cli/backup/kept_events.h"
+#include "app/cli/backup/events/event_room.h"
+#include "app/cli/backup/events/kept_events.h"
 #include "app/cli/backup/passphrase.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"

@@ -13,7 +13,7 @@
 
 /// A backup as a file: tar.zst with manifest.json, the files that are not secret, and
 /// secrets.sealed, an encrypted tar of the others. Kept events follow in a frame of their own, see
-/// kept_events.h. All reentrant.
+/// events/kept_events.h. All reentrant.
 namespace orbwatch::app::cli::backup {
 
 /// Largest backup that is read, unpacked, without its events.

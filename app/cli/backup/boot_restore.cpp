@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/cli/backup/backup_file.h"
+#include "app/cli/backup/events/restored_events.h"
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
 #include "app/cli/backup/restore_report.h"
-#include "app/cli/backup/restored_events.h"
 #include "app/cli/backup/sealing.h"
 #include "app/cli/backup/service_stop.h"
 #include "hal/regular_file.h"

@@ -7,7 +7,7 @@
 
 #include "app/cli/archive/archive.h"
 #include "app/cli/backup/backup_file.h"
-#include "app/cli/backup/restored_events.h"
+#include "app/cli/backup/events/restored_events.h"
 #include "app/cli/backup/site_places.h"
 #include "proc/image/result.h"
 

@@ -7,12 +7,12 @@
 
 #include "app/cli/backup/backup_file.h"
 #include "app/cli/backup/boot_restore.h"
+#include "app/cli/backup/events/restored_events.h"
 #include "app/cli/backup/passphrase.h"
 #include "app/cli/backup/pending_restore.h"
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
 #include "app/cli/backup/restore_report.h"
-#include "app/cli/backup/restored_events.h"
 #include "app/cli/backup/service_stop.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"

@@ -158,7 +158,7 @@ struct Pixels {
 };
 
 /// Samples a window of rows that are `stride` apart, or two.
-template <Layout layout, Kept kept, Part part>
+template <Layout layout, Kept kept, WindowPart part>
 [[gnu::always_inline]] inline Pixels sample(const std::uint8_t* from, const std::uint8_t* beside,
                                             std::ptrdiff_t stride, const Places& places) {
   constexpr int kSamples = info(layout).samples;
@@ -294,7 +294,7 @@ struct BlockAt {
 };
 
 /// Makes a block from `first`; if not all of its pixels are kept, from `second` too.
-template <Layout layout, Kept kept, Part part>
+template <Layout layout, Kept kept, WindowPart part>
 [[gnu::always_inline]] inline Pixels make_block(const TileJob& job, const BlockAt& first,
                                                 const BlockAt& second, __m256i lanes_u,
                                                 __m256i lanes_v) {
@@ -319,7 +319,7 @@ template <Layout layout, Kept kept, Part part>
 /// Fills one row of blocks; block (0, y) has the lanes that u and v start from. If not all pixels
 /// are kept, blocks are made from pairs of blocks: two side by side, or this row's and the next
 /// one's.
-template <Layout layout, int blocks_x, Kept kept, Part part>
+template <Layout layout, int blocks_x, Kept kept, WindowPart part>
 void fill_row(const TileJob& job, const BlockRow* row, const Shape& u, const Shape& v,
               std::uint8_t* out) {
   constexpr int kOutBytes = info(layout).out_bytes(), kStep = kept == Kept::EvenColumns ? 2 : 1;
@@ -348,7 +348,7 @@ void fill_row(const TileJob& job, const BlockRow* row, const Shape& u, const Sha
   }
 }
 
-template <Layout layout, int blocks_x, Kept kept, Part part>
+template <Layout layout, int blocks_x, Kept kept, WindowPart part>
 void fill_rows(const TileJob& job) {
   BlockRow rows[kMostRows];
   walk(job.map, rows);
@@ -374,12 +374,12 @@ void fill(const TileJob& job) {
   const bool has_few_rows = job.map.is_within(kWindow, kFewRows);
   if constexpr (info(layout).pixel_bytes == 3) {
     if (job.map.is_within(kFewColumns, kWindow)) {
-      constexpr Part kFew{kFewColumns, kFewRows}, kNarrow{kFewColumns, kWindow};
+      constexpr WindowPart kFew{kFewColumns, kFewRows}, kNarrow{kFewColumns, kWindow};
       return has_few_rows ? fill_rows<layout, blocks_x, kept, kFew>(job)
                           : fill_rows<layout, blocks_x, kept, kNarrow>(job);
     }
   }
-  constexpr Part kLow{kWindow, kFewRows};
+  constexpr WindowPart kLow{kWindow, kFewRows};
   has_few_rows ? fill_rows<layout, blocks_x, kept, kLow>(job)
                : fill_rows<layout, blocks_x, kept, kWhole>(job);
 }

@@ -72,12 +72,12 @@ struct Rows {
   __m256i top, bottom;
 };
 
-/// Part of the windows that a tile's blocks need, from the first pixel on: less takes fewer tables,
-/// and five pixels of three bytes fewer steps to sort them.
-struct Part {
+/// Part of its windows that a tile's blocks need, from the first pixel on. Fewer rows take fewer
+/// tables; five pixels of three bytes fit one register and are sorted in fewer steps.
+struct WindowPart {
   int columns = kWindow, rows = kWindow;
 };
-inline constexpr Part kWhole;
+inline constexpr WindowPart kWhole;
 inline constexpr int kFewColumns = 5, kFewRows = 6;
 
 /// Two rows of a window of each channel, 8 bytes each: tables for vpshufb, of one window in both
@@ -103,8 +103,8 @@ struct Tables {
         channels[0] = _mm256_blend_epi32(channels[0], other, 0xf0);
       }
     } else if constexpr (pixel_bytes == 2) {
-      const __m256i first = by_channel(row(from, beside));
-      const __m256i second = by_channel(row(from + stride, beside + stride));
+      const __m256i first = by_channel(row_start(from, beside));
+      const __m256i second = by_channel(row_start(from + stride, beside + stride));
       channels[0] = _mm256_unpacklo_epi64(first, second);
       channels[1] = _mm256_unpackhi_epi64(first, second);
     } else if constexpr (kFives) {
@@ -117,7 +117,8 @@ struct Tables {
           _mm_setr_epi8(2, 5, 8, 11, 14, no, no, no, no, no, no, no, no, no, no, no);
       const __m128i below =
           _mm_setr_epi8(no, no, no, no, no, no, no, no, 2, 5, 8, 11, 14, no, no, no);
-      const __m256i first = row(from, beside), second = row(from + stride, beside + stride);
+      const __m256i first = row_start(from, beside);
+      const __m256i second = row_start(from + stride, beside + stride);
       channels[0] = _mm256_unpacklo_epi64(sorted(first, two), sorted(second, two));
       channels[1] = _mm256_unpackhi_epi64(sorted(first, two), sorted(second, two));
       channels[2] = _mm256_or_si256(sorted(first, last), sorted(second, below));
@@ -138,7 +139,7 @@ struct Tables {
 
  private:
   /// The first 16 bytes of one window's row in both halves, or of two.
-  static __m256i row(const std::uint8_t* lower, const std::uint8_t* upper) {
+  static __m256i row_start(const std::uint8_t* lower, const std::uint8_t* upper) {
     const __m256i one = _mm256_broadcastsi128_si256(load128(lower));
     return of_two ? _mm256_inserti128_si256(one, load128(upper), 1) : one;
   }
@@ -186,7 +187,7 @@ struct Tables {
 
 /// Interpolates along u all channels that the layout reads of a window, 8 rows that are `stride`
 /// apart; for the upper halves, of the window `beside`, if `of_two`.
-template <Layout layout, bool of_two, Part part>
+template <Layout layout, bool of_two, WindowPart part>
 [[gnu::always_inline]] inline void interpolate_rows(const std::uint8_t* from,
                                                     const std::uint8_t* beside,
                                                     std::ptrdiff_t stride, const Places& places,

@@ -136,8 +136,8 @@ void keep_even(const TargetPlane& fine, const TargetPlane& out) {
   }
 }
 
-/// The same for pixels that vector registers do not move; they are not collected in memory first,
-/// from where they could only be read when all are there.
+/// The same for pixels of three bytes. A row that is collected in memory first, as above, is read
+/// back only when all its small stores are done.
 void keep_even_threes(const TargetPlane& fine, const TargetPlane& out) {
   const int rows = out.rows;
   const std::uint8_t* from = fine.data;

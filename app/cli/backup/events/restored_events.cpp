@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/backup/restored_events.h"
+#include "app/cli/backup/events/restored_events.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 
 #include "app/cli/archive/tar_header.h"
 #include "app/cli/backup/as_owner.h"
-#include "app/cli/backup/event_files.h"
-#include "app/cli/backup/event_room.h"
+#include "app/cli/backup/events/event_files.h"
+#include "app/cli/backup/events/event_room.h"
 #include "app/ports/recorder/events/event_folder.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "hal/atomic_file.h"

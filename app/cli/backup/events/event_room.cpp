@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/backup/event_room.h"
+#include "app/cli/backup/events/event_room.h"
 
 #include <limits>
 #include <string>

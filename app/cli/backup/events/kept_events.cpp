@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/backup/kept_events.h"
+#include "app/cli/backup/events/kept_events.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "app/cli/archive/tar_header.h"
-#include "app/cli/backup/event_files.h"
+#include "app/cli/backup/events/event_files.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::cli::backup {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/backup/restored_events.h"
+#include "app/cli/backup/events/restored_events.h"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 
 #include "app/cli/archive/compression.h"
 #include "app/cli/archive/tar.h"
-#include "tests/app/cli/backup/recorded_events.h"
+#include "tests/app/cli/backup/events/recorded_events.h"
 #include "tests/support/service_user.h"
 
 namespace orbwatch::app::cli::backup {

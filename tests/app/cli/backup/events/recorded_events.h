@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/backup/kept_events.h"
+#include "app/cli/backup/events/kept_events.h"
 #include "app/ports/recorder/events/event_summary.h"
 #include "tests/app/cli/backup/site.h"
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cli/backup/kept_events.h"
+#include "app/cli/backup/events/kept_events.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "tests/app/cli/backup/recorded_events.h"
+#include "tests/app/cli/backup/events/recorded_events.h"
 
 namespace orbwatch::app::cli::backup {
 namespace {
@@ -52,6 +53,13 @@ TEST_F(KeptEvents, ThatWereRemovedMeanwhileAreLeftOut) {
   ASSERT_EQ(events->size(), 1U);
   EXPECT_EQ(events->front().name, kFirst);
   EXPECT_THAT(left_out, ElementsAre());
+}
+
+TEST(KeptEventsList, IsEmptyWithoutRecordings) {
+  std::vector<std::string> left_out;
+  auto none = recorder::EventFolder("/nonexistent/recordings").list();
+  ASSERT_TRUE(none) << none.error().message;
+  EXPECT_EQ(kept_events(std::move(*none), left_out)->size(), 0U);
 }
 
 }  // namespace
