@@ -25,7 +25,8 @@ struct BackEndFacts {
   CameraOrigin origin = CameraOrigin::Process;
   std::string_view address_key{};  ///< in the site file; empty: cameras have no address
   bool needs_size = false;         ///< width and height must be stated
-  bool takes_size_of_rig = false;  ///< where none is stated: its cameras offer several sizes
+  bool takes_size_of_rig =
+      false;  ///< a size that is not stated is the rig's: cameras offer several
   bool has_board_sensors = false;  ///< they need DMA heaps and the board's drivers
   bool shares_usb = false;         ///< its USB cameras are V4L2 devices, too, with more controls
   std::string_view radiometric_advice{};  ///< for a camera that delivers no y16

@@ -38,6 +38,7 @@ Result<StreamFormat> Camera::configure(const StreamRequest& request) {
     return fail("camera " + info_.id + ": configure while it runs; stop it first");
   }
   configured_ = false;
+  was_started_ = false;
   if (auto sound = check(request); !sound) {
     return fail("camera " + info_.id + ": " + sound.error().message);
   }
@@ -60,6 +61,7 @@ Result<> Camera::start(OnFrame on_frame, OnFault on_fault) {
   control_delay_.clear();
   damaged_ = 0;
   flawed_ = 0;
+  was_started_ = true;  // before the thread opens the stream: set() may be called meanwhile
   thread_.start(thread_name(info_.id), role(), [this] { run(thread_.stop_token()); });
   return {};
 }
@@ -69,9 +71,24 @@ void Camera::stop() { thread_.stop(); }
 Result<> Camera::trigger() { return fail("camera " + info_.id + ": has no software trigger"); }
 
 Result<> Camera::set(std::string_view control, double value) {
+  const std::lock_guard lock(setting_);
   auto done = do_set(control, value);
-  if (done) control_delay_.set(Clock::now());
-  return done;
+  if (!done && !keeps_controls_) return done;
+  std::erase_if(kept_, [control](const auto& kept) { return kept.first == control; });
+  if (!done) kept_.emplace_back(control, value);
+  control_delay_.set(Clock::now());
+  return {};
+}
+
+Result<> Camera::set_kept() {
+  const std::lock_guard lock(setting_);
+  keeps_controls_ = false;
+  for (const auto& [control, value] : kept_) {
+    if (auto done = do_set(control, value); !done) return done;
+    control_delay_.set(Clock::now());
+  }
+  kept_.clear();
+  return {};
 }
 
 Result<> Camera::do_set(std::string_view control, double) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -59,7 +60,7 @@ struct StreamRequest {
 /// Scale that a camera states for its counts; a count of 0 is 0 K.
 struct CountScale {
   double kelvin_per_count = 0;  ///< 0: they are not proportional to temperature
-  std::string said_by;  ///< source: the feature and its value, such as "IRFormat is Radiometric"
+  std::string stated_by;  ///< source: the feature and its value, such as "IRFormat is Radiometric"
 };
 
 /// The negotiated stream. A requested size or format is honoured or refused.
@@ -150,7 +151,8 @@ class Camera {
   }
 
   /// Sets a control by name in its own unit. FrameMetadata::controls_as_of states from
-  /// when it is in effect. Error: no such control, or out of range.
+  /// when it is in effect. While a DeviceCamera is unplugged the value is kept, and set when it
+  /// reconnects; a refusal is then the fault Refused. Error: no such control, or out of range.
   Result<> set(std::string_view control, double value);
 
   /// Scale of the configured camera with its present controls; nullopt: the camera does not state
@@ -185,11 +187,17 @@ class Camera {
   void discard(FrameMetadata metadata, std::string detail, Fault fault = Fault::CorruptFrame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
+  /// For run(): the device is gone; until set_kept(), set() keeps values that cannot be set.
+  void keep_controls() { keeps_controls_ = true; }
+  /// For run(): the device is there again; sets the kept values. Error: the device refuses one.
+  Result<> set_kept();
   /// For run(): reports a notice unless it equals the last one.
   void notify(const std::string& text);
   /// For run(): reports the fault, if any, that a script has for the exposure with this metadata.
   /// False: it has none.
   bool fails(const FaultScript& script, const FrameMetadata& metadata);
+  /// True from start() until the next configure(): what a count means stays. Thread-safe.
+  bool was_started() const { return was_started_; }
   /// For run(): waits until `moment`. False: the stop was requested.
   bool wait_until(TimePoint moment);
   /// For run(): waits for a wake(). False: the stop was requested.
@@ -203,6 +211,10 @@ class Camera {
 
   CameraInfo info_;
   bool configured_ = false;
+  std::atomic<bool> was_started_ = false;
+  std::mutex setting_;  ///< held while a control is set; run() waits for it only in set_kept()
+  std::atomic<bool> keeps_controls_ = false;
+  std::vector<std::pair<std::string, double>> kept_;  ///< guarded by setting_
   Gate gate_;
   StampSettings stamps_;
   bool requires_stamps_ = false;

@@ -9,6 +9,7 @@
 
 #include "hal/clock.h"
 #include "hal/frame/frame.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::hal {
 
@@ -47,7 +48,7 @@ class ControlDelay {
   }
 
  private:
-  std::mutex mutex_;
+  PriorityMutex mutex_;
   std::optional<TimePoint> oldest_;  ///< oldest setting that may not be in effect; none: all are
   TimePoint newest_;
   std::optional<std::uint64_t> first_;  ///< sequence of the first exposure that began after newest_

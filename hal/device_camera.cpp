@@ -29,6 +29,7 @@ void DeviceCamera::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     forwarded_ = false;
     const FaultReport fault = stream(stop);
+    if (fault.fault == Fault::Unplugged) keep_controls();
     report(fault.fault, fault.detail);  // not after a stop
     if (forwarded_) pause.reset();
     if (!wait_until(Clock::now() + pause.next())) return;
@@ -38,7 +39,9 @@ void DeviceCamera::run(const std::stop_token& stop) {
 FaultReport DeviceCamera::stream(const std::stop_token& stop) {
   const auto frame_rate = open_stream();
   if (!frame_rate) return frame_rate.error();
-  const FaultReport fault = capture_until_fault(stop, *frame_rate);
+  const auto ready = set_kept();
+  const FaultReport fault = ready ? capture_until_fault(stop, *frame_rate)
+                                  : FaultReport{Fault::Refused, ready.error().message};
   const auto closed = close_stream();
   return closed ? fault : closed.error();
 }

@@ -32,7 +32,7 @@ Result<std::string> read_regular_file(const FileDescriptor& opened,
   struct stat about {};
   if (::fstat(opened.get(), &about) != 0) return not_read(file, system_reason());
   if (S_ISDIR(about.st_mode)) return not_read(file, "Is a directory");
-  if (!S_ISREG(about.st_mode)) return not_read(file, "is a pipe or a device, no regular file");
+  if (!S_ISREG(about.st_mode)) return not_read(file, "is a pipe or a device, not a regular file");
   std::string text;
   constexpr std::size_t kBlock = 16384;
   for (std::size_t size = 0; size <= most;) {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "hal/thread/priority_mutex.h"
+
 namespace orbwatch::hal {
 
 /// Fixed set of buffers, lent out as shared_ptr without touching the heap: the control block of
@@ -65,7 +67,7 @@ class BufferPool {
     alignas(std::max_align_t) std::byte control_block[128];
   };
   struct State {
-    mutable std::mutex mutex;
+    mutable PriorityMutex mutex;
     std::vector<std::unique_ptr<Slot>> slots;
     Released released;
 

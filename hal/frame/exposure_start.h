@@ -7,6 +7,13 @@
 
 namespace orbwatch::hal {
 
+/// True for a stamp that a frame which arrives now may have: a driver's few buffers hold none older
+/// than a minute, so an older one belongs to another clock, as does a later one. Reentrant.
+inline bool is_plausible(TimePoint stamp, TimePoint arrival) {
+  constexpr std::chrono::seconds kOldest{60};
+  return stamp <= arrival && stamp >= arrival - kOldest;
+}
+
 /// Facts about a camera's time stamps that the site states in addition to the camera.
 struct StampSettings {
   /// Time from the first row to the last, from a data sheet; stamps at the end of a frame are later

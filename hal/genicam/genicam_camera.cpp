@@ -15,7 +15,7 @@ namespace {
 constexpr std::chrono::seconds kLatchPeriod{1};
 
 /// Moments after which the residual of the clock's line is logged, once.
-constexpr std::size_t kTellingMoments = 10;
+constexpr std::size_t kLoggedMoments = 10;
 
 std::string_view words_of(ArvBufferStatus status) {
   switch (status) {
@@ -75,7 +75,7 @@ DeviceResult<> GenicamCamera::set_up_again() {
   auto done = set_up(format_.pixels->name, {stream.width, stream.height, stream.frame_rate});
   if (!done || !before || !count_scale_) return done;
   if (count_scale_->kelvin_per_count == before->kelvin_per_count) return {};
-  const std::string changed = count_scale_->said_by + ", before " + before->said_by;
+  const std::string changed = count_scale_->stated_by + ", before " + before->stated_by;
   count_scale_ = before;
   is_set_up_ = false;
   return fail(Fault::WrongFormat, "genicam: camera " + found_.id +
@@ -98,7 +98,6 @@ Result<StreamFormat> GenicamCamera::do_configure(const StreamRequest& request) {
                 "\"; it must be one of " + known);
   }
   const std::lock_guard lock(device_mutex_);
-  keeps_count_scale_ = false;
   auto ready = open().and_then([&] { return set_up(settings_.pixel_format, request); });
   if (!ready) {
     camera_.reset();
@@ -123,7 +122,10 @@ Result<> GenicamCamera::do_set(std::string_view control, double value) {
   const std::string name(control);
   const std::lock_guard lock(device_mutex_);
   if (auto opened = open(); !opened) return fail(opened.error().detail);
-  if (keeps_count_scale_ && is_set_up_ && would_rescale(camera_.get(), name, value)) {
+  if (was_started() && !is_set_up_) {
+    if (auto again = set_up_again(); !again) return fail(again.error().detail);
+  }
+  if (was_started() && would_rescale(camera_.get(), name, value)) {
     return fail("genicam: camera " + found_.id + ": control " + name +
                 " cannot change after the start: it changes what a count means");
   }
@@ -171,7 +173,6 @@ void GenicamCamera::count_link() {
 
 DeviceResult<double> GenicamCamera::open_stream() {
   const std::lock_guard lock(device_mutex_);
-  keeps_count_scale_ = true;
   auto started =
       open().and_then([&] { return is_set_up_ ? DeviceResult<>() : set_up_again(); }).and_then([&] {
         return GenicamStream::start(camera_.get(), format_, buffers_);
@@ -186,7 +187,7 @@ DeviceResult<double> GenicamCamera::open_stream() {
   latch_ = TimestampLatch::find(camera_.get());
   latch_due_ = Clock::now();
   is_lost_ = false;
-  clock_is_told_ = false;
+  is_clock_logged_ = false;
   runs_ = true;
   return format_.stream.frame_rate;
 }
@@ -202,7 +203,7 @@ DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
   if (*captured) {
     read_clock();
     forward_intact(**captured);
-    tell_of_clock();
+    log_clock_fit();
   }
   count_link();
   if (!*captured && Clock::now() >= deadline && !silence_is_normal) return silence();
@@ -218,6 +219,7 @@ tl::unexpected<FaultReport> GenicamCamera::silence() {
   if (found_.is_gige() && !read_gige_identity(found_.address)) {
     stream_->give_up();
     fault = {Fault::Unplugged, who + ": does not answer any more"};
+    keep_controls();
   }
   report(fault.fault, fault.detail);
   return tl::unexpected(std::move(fault));
@@ -234,17 +236,19 @@ DeviceResult<> GenicamCamera::close_stream() {
   return {};
 }
 
-/// Called after a frame, when the camera certainly answers.
+/// Called after a frame, when the camera certainly answers. While others use the device the clock
+/// is left to a later frame: they may wait for the camera, frames must not.
 void GenicamCamera::read_clock() {
   if (!latch_ || Clock::now() < latch_due_) return;
-  const std::lock_guard lock(device_mutex_);
+  const std::unique_lock lock(device_mutex_, std::try_to_lock);
+  if (!lock) return;
   if (const auto now = latch_->read()) clock_.add_latched(now->device, now->before, now->after);
   latch_due_ = Clock::now() + kLatchPeriod;
 }
 
-void GenicamCamera::tell_of_clock() {
-  if (clock_is_told_ || clock_.moments() < kTellingMoments) return;
-  clock_is_told_ = true;
+void GenicamCamera::log_clock_fit() {
+  if (is_clock_logged_ || clock_.moments() < kLoggedMoments) return;
+  is_clock_logged_ = true;
   const auto residual = clock_.residual().value_or(std::chrono::nanoseconds(0));
   notify("time stamps by the camera's clock, " +
          std::string(latch_ ? "read every second" : "as frames arrive") + ": within " +
@@ -297,7 +301,7 @@ DeviceResult<std::size_t> GenicamCamera::intact_stride(
   const ArvBufferPayloadType payload = arv_buffer_get_payload_type(buffer);
   if (payload != ARV_BUFFER_PAYLOAD_TYPE_IMAGE &&
       payload != ARV_BUFFER_PAYLOAD_TYPE_EXTENDED_CHUNK_DATA) {
-    return fail(Fault::WrongFormat, "it is no picture, but payload of type " +
+    return fail(Fault::WrongFormat, "not a picture, but a payload of type " +
                                         std::to_string(static_cast<int>(payload)));
   }
   const StreamFormat& stream = format_.stream;

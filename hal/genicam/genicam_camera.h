@@ -63,7 +63,7 @@ class GenicamCamera : public DeviceCamera {
   void read_features();
   tl::unexpected<FaultReport> silence();
   void read_clock();
-  void tell_of_clock();
+  void log_clock_fit();
   void count_link();
   FrameMetadata metadata_of(const GenicamStream::Captured& captured);
   void forward_intact(const GenicamStream::Captured& captured);
@@ -73,14 +73,13 @@ class GenicamCamera : public DeviceCamera {
 
   GenicamSettings settings_;
   mutable std::mutex
-      device_mutex_;  ///< guards the seven members that follow, and the camera's features
+      device_mutex_;  ///< guards the six members that follow, and the camera's features
   FoundCamera found_;
   OwnedObject<ArvCamera> camera_;  ///< camera while it is controlled
   bool is_set_up_ = false;         ///< format and controls are set
   std::vector<Control> controls_;  ///< stored controls, in the order of their first setting
   bool runs_ = false;
   std::optional<CountScale> count_scale_;
-  bool keeps_count_scale_ = false;  ///< the camera was started since it was configured
   GenicamStreamFormat format_;
   std::size_t buffers_ = kFreeRunningBuffers;  ///< number of the stream's buffers
   std::unique_ptr<GenicamDecoder> decoder_;    ///< decoder for formats that are not zero-copy
@@ -93,7 +92,7 @@ class GenicamCamera : public DeviceCamera {
   DeviceClock clock_;
   std::optional<TimestampLatch> latch_;  ///< nullopt: the clock follows arrivals
   TimePoint latch_due_;
-  bool clock_is_told_ = false;                              ///< the clock of this stream was logged
+  bool is_clock_logged_ = false;                            ///< the clock of this stream was logged
   TimePoint newest_;                                        ///< stamp of the last frame
   std::atomic<bool> triggered_ = false;                     ///< the camera waits for triggers
   std::atomic<std::chrono::microseconds> exposure_time_{};  ///< exposure_time(), cached

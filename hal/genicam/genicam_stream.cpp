@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "hal/frame/exposure_start.h"
 #include "hal/thread/scheduling.h"
 
 namespace orbwatch::hal {
@@ -24,10 +25,6 @@ int socket_buffer(std::size_t payload) {
   return static_cast<int>(std::clamp(kPictures * payload, kLeast, kMost));
 }
 
-/// A stream's few buffers hold no older frame; an older stamp means that the system's clock was set
-/// since.
-constexpr std::chrono::seconds kOldest{60};
-
 }  // namespace
 
 TimePoint arrival_of(std::uint64_t system_time, TimePoint now) {
@@ -35,7 +32,8 @@ TimePoint arrival_of(std::uint64_t system_time, TimePoint now) {
   const auto system_now = std::chrono::system_clock::now().time_since_epoch();
   const auto age = std::chrono::duration_cast<nanoseconds>(system_now) -
                    nanoseconds(static_cast<std::int64_t>(system_time));
-  return age >= nanoseconds(0) && age < kOldest ? now - age : now;
+  // An implausible arrival means that the system's clock was set since.
+  return is_plausible(now - age, now) ? now - age : now;
 }
 
 GenicamFrame::GenicamFrame(std::size_t bytes) {

@@ -14,6 +14,8 @@
 #include <string>
 #include <system_error>
 
+#include "hal/frame/exposure_start.h"
+
 namespace orbwatch::hal {
 namespace {
 
@@ -43,9 +45,6 @@ Result<MappedDmaBuffer> map_file(const libcamera::SharedFD& file, std::size_t le
 }
 
 using std::chrono::nanoseconds;
-
-/// A camera's few buffers hold no older frame; an older stamp belongs to another clock.
-constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace
 
@@ -106,7 +105,7 @@ ClockReading ClockReading::now() {
 std::optional<TimePoint> to_steady(nanoseconds stamp, const ClockReading& arrival) {
   const nanoseconds now = arrival.steady.time_since_epoch();
   if (stamp > now) stamp -= arrival.boot - now;
-  if (stamp > now || stamp < now - kOldest) return std::nullopt;
+  if (!is_plausible(TimePoint(stamp), arrival.steady)) return std::nullopt;
   return TimePoint(stamp);
 }
 

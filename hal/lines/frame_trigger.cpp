@@ -24,7 +24,9 @@ void FrameTrigger::fire(TimePoint moment) {
   const TriggerStamp trigger{++counts_.triggers, moment};
   if (counts_.waiting == kMaxWaiting) {
     ++counts_.missed;
-    return;
+    // Until a later one is due, the oldest may still get its frame.
+    if (settings_.mode == TriggerMode::Software || waiting_[1].moment > moment) return;
+    drop_oldest(1);
   }
   waiting_[counts_.waiting++] = {trigger, moment + settings_.delay, false};
 }
@@ -84,6 +86,7 @@ bool FrameTrigger::miss(TimePoint exposure_start) {
 /// Removes and returns the trigger of an exposure from the waiting ones. Call with the lock held.
 std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
   const bool software = settings_.mode == TriggerMode::Software;
+  if (!software) miss_before(exposure_start - settings_.timeout);
   std::size_t due = 0;  // number of triggers at or before the exposure
   while (due < counts_.waiting && waiting_[due].moment <= exposure_start &&
          (!software || waiting_[due].exposed)) {
@@ -98,6 +101,14 @@ std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
   drop_oldest(due);
   counts_.missed += due - 1;
   return trigger;
+}
+
+/// Counts triggers from before `oldest` as missed. Call with the lock held.
+void FrameTrigger::miss_before(TimePoint oldest) {
+  std::size_t old = 0;
+  while (old < counts_.waiting && waiting_[old].moment < oldest) ++old;
+  drop_oldest(old);
+  counts_.missed += old;
 }
 
 /// True if the first trigger after the exposure's start may have begun it nevertheless.

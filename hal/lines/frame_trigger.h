@@ -9,6 +9,7 @@
 
 #include "hal/lines/line.h"
 #include "hal/lines/line_task.h"
+#include "hal/thread/priority_mutex.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
@@ -25,7 +26,8 @@ struct TriggerSettings {
   TriggerMode mode = TriggerMode::Line;
   TriggerActivation activation = TriggerActivation::RisingEdge;
   Clock::duration delay{0};  ///< from the edge to the exposure
-  /// Mode Software: an exposure request without a frame for this long has failed.
+  /// Mode Software: an exposure request without a frame for this long has failed. Line: an edge
+  /// this long before an exposure belongs to no frame; it is from an outage of the camera.
   Clock::duration timeout = std::chrono::seconds(1);
 };
 
@@ -50,10 +52,11 @@ struct TriggerCounts {
 /// the next one if that is nearer and less than kStampError after it; earlier triggers without a
 /// frame are missed. In mode Software the camera is triggered when the trigger is due, unless the
 /// previous frame is outstanding: then the trigger is missed.
-/// Bounded: beyond kMaxWaiting triggers the newest are missed, since the oldest may belong to
-/// frames that are on their way.
+/// Bounded: beyond kMaxWaiting triggers the oldest is missed if a later one is due, since a frame
+/// belongs to the newest before it; else the newest, since the others still get their frames. In
+/// mode Software the newest, since the camera is to expose for the others first.
 /// Thread rule: on_edge on the line thread; due and run on a LineThread of its own in mode
-/// Software, since a camera may be slow to answer; claim, miss and abandon on the camera's, fire
+/// Software, since a camera may be slow to answer; claim and miss on the camera's, fire, abandon
 /// and counts on any.
 class FrameTrigger : public LineTask {
  public:
@@ -81,7 +84,7 @@ class FrameTrigger : public LineTask {
   /// Counts the trigger of a damaged frame as missed. False: it has none.
   bool miss(TimePoint exposure_start);
 
-  /// Counts waiting triggers as missed, because the camera has a fault.
+  /// Counts waiting triggers as missed, because the camera has a fault or is absent.
   void abandon();
 
   TriggerCounts counts() const;
@@ -95,13 +98,14 @@ class FrameTrigger : public LineTask {
 
   bool is_trigger(Edge edge) const;
   std::optional<TriggerStamp> take(TimePoint exposure_start);
+  void miss_before(TimePoint oldest);
   bool may_have_begun(std::size_t next, TimePoint exposure_start) const;
   bool prepare_exposure(TimePoint now, std::uint64_t& id);
   void drop_oldest(std::size_t count);
 
   const TriggerSettings settings_;
   const Expose expose_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   std::array<Waiting, kMaxWaiting> waiting_;  ///< the first counts_.waiting ones, oldest first
   TriggerCounts counts_;
 };

@@ -27,26 +27,26 @@ class LineRetry {
   /// Call when the line failed and was closed.
   void failed(const LineFaultReport& report, TimePoint now) {
     due_ = now + pause_.next();
-    tell(report);
+    report_change(report);
   }
   /// Call when the line is open.
   void works() {
     pause_.reset();
-    tell({});
+    report_change({});
   }
 
   /// Moment of the next attempt.
   TimePoint due() const { return due_; }
 
  private:
-  void tell(const LineFaultReport& report) {
-    if (report.fault == told_.fault && report.detail == told_.detail) return;
-    told_ = report;
+  void report_change(const LineFaultReport& report) {
+    if (report.fault == reported_.fault && report.detail == reported_.detail) return;
+    reported_ = report;
     on_fault_(report);
   }
 
   OnFault on_fault_;
-  LineFaultReport told_;
+  LineFaultReport reported_;
   TimePoint due_ = TimePoint::max();
   BackOff pause_;
 };

@@ -9,6 +9,7 @@
 
 #include "hal/lines/line.h"
 #include "hal/lines/line_task.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::hal {
 
@@ -52,7 +53,7 @@ class PulseOutput : public LineTask {
   const PulseSettings settings_;
   const std::function<void()> wake_;
   Outputs outputs_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   bool driven_ = false;  ///< level of the lines; used by the line thread only
   bool active_ = false;
   TimePoint rise_;  ///< moment of the next pulse; max(): none; min(): periodic, not begun

@@ -9,6 +9,7 @@
 
 #include "hal/lines/line.h"
 #include "hal/lines/line_task.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::hal {
 
@@ -43,7 +44,7 @@ class WatchdogOutput : public LineTask {
   const WatchdogSettings settings_;
   const std::function<void()> wake_;
   const std::unique_ptr<DigitalOutput> output_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   bool healthy_ = false;
   TimePoint last_;         ///< moment of the last healthy report
   bool is_up_ = false;     ///< the line is held active or toggles

@@ -16,9 +16,9 @@ namespace orbwatch::hal::mcap {
 class File {
  public:
   enum class Access {
-    Read,    ///< of a file that another process may be writing
-    Change,  ///< of a file that no other process changes
-    Create   ///< of a new file
+    Read,    ///< reads a file that another process may be writing
+    Change,  ///< changes a file that no other process changes
+    Create   ///< makes a new file
   };
 
   /// Errors: missing; present, for Create; not a regular file; being written, for Change.

@@ -14,8 +14,9 @@ struct Limits {
   std::size_t summary = 32 * kMebibyte;     ///< summary section: about an hour of 30 chunks/s
 };
 
-inline constexpr std::size_t kMostName = 1024;      ///< bytes of a topic or another name
-inline constexpr std::size_t kMostMapEntries = 64;  ///< of the metadata of a channel or a file
+inline constexpr std::size_t kMostName = 1024;  ///< bytes of a topic or another name
+inline constexpr std::size_t kMostMapEntries =
+    64;  ///< entries in the metadata of a channel or a file
 
 /// Most bytes of a stored chunk: what zstd makes of data that cannot be compressed.
 constexpr std::size_t most_stored(const Limits& limits) {

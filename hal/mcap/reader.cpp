@@ -17,24 +17,40 @@ FileResult<Reader> Reader::open(const std::filesystem::path& path, const Limits&
 
 FileResult<Reader> Reader::open(File file, const Limits& limits) {
   Reader reader(std::move(file), limits);
-  auto section = find_summary(reader.file_, limits);
-  if (!section) return error_of(section);
-  if (!*section) {
-    auto scanned = scan(reader.file_, limits);
-    if (!scanned) return error_of(scanned);
-    reader.header_ = scanned->header.value_or(Header{"", ""});
-    reader.summary_ = std::move(scanned->summary);
-    return reader;
-  }
-  auto begin = read_begin(reader.file_, limits);
-  if (!begin) return error_of(begin);
-  if (!*begin) return reader.file_.named({0, "byte 8: the header ends beyond the file"});
-  auto summary = read_summary(reader.file_, **section, limits);
-  if (!summary) return error_of(summary);
-  reader.header_ = std::move((*begin)->header);
-  reader.summary_ = std::move(*summary);
-  reader.is_finished_ = true;
+  auto is_read = reader.read_by_footer();
+  if (!is_read) return error_of(is_read);
+  if (*is_read) return reader;
+  auto scanned = scan(reader.file_, limits);
+  if (!scanned) return error_of(scanned);
+  reader.header_ = scanned->header.value_or(Header{"", ""});
+  reader.summary_ = std::move(scanned->summary);
   return reader;
+}
+
+FileResult<Reader> Reader::open_finished(const std::filesystem::path& path, const Limits& limits) {
+  auto file = File::open(path, File::Access::Read);
+  if (!file) return error_of(file);
+  Reader reader(std::move(*file), limits);
+  auto is_read = reader.read_by_footer();
+  if (!is_read) return error_of(is_read);
+  if (!*is_read) return reader.file_.named({0, "its summary is missing or damaged"});
+  return reader;
+}
+
+/// Reads header and summary of a finished file. False: it has no summary, or a damaged one.
+FileResult<bool> Reader::read_by_footer() {
+  auto section = find_summary(file_, limits_);
+  if (!section) return error_of(section);
+  if (!*section) return false;
+  auto begin = read_begin(file_, limits_);
+  if (!begin) return error_of(begin);
+  if (!*begin) return file_.named({0, "byte 8: the header ends beyond the file"});
+  auto summary = read_summary(file_, **section, limits_);
+  if (!summary) return error_of(summary);
+  header_ = std::move((*begin)->header);
+  summary_ = std::move(*summary);
+  is_finished_ = true;
+  return true;
 }
 
 FileResult<> Reader::load_chunk(std::size_t number) {

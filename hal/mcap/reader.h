@@ -25,10 +25,14 @@ class Reader {
   /// not an MCAP file, damaged, beyond the limits.
   static FileResult<Reader> open(const std::filesystem::path& path, const Limits& limits = {});
   static FileResult<Reader> open(File file, const Limits& limits = {});
+  /// Reads the summary of a finished file, and never its records instead. Error also: the summary
+  /// is missing, or its CRC is wrong.
+  static FileResult<Reader> open_finished(const std::filesystem::path& path,
+                                          const Limits& limits = {});
 
   const Header& header() const { return header_; }
   const Summary& summary() const { return summary_; }
-  /// False: the file has no summary of its own.
+  /// False: the file has no summary of its own, or one whose CRC is wrong.
   bool is_finished() const { return is_finished_; }
 
   /// Loads a chunk of summary().chunks for next(). Errors: damaged, or an unknown channel.
@@ -44,6 +48,7 @@ class Reader {
 
  private:
   Reader(File file, const Limits& limits) : file_(std::move(file)), limits_(limits) {}
+  FileResult<bool> read_by_footer();
   FileResult<> check_chunk() const;
 
   File file_;
@@ -53,7 +58,7 @@ class Reader {
   bool is_finished_ = false;
   Bytes stored_;  ///< the loaded record
   ChunkLoader loader_;
-  std::span<const std::byte> rest_;  ///< of the loaded chunk's records
+  std::span<const std::byte> rest_;  ///< unread records of the loaded chunk
 };
 
 }  // namespace orbwatch::hal::mcap

@@ -122,7 +122,7 @@ struct ChunkHead {
   std::uint64_t uncompressed_size = 0;
   std::uint32_t uncompressed_crc = 0;  ///< 0: none
   std::string compression;             ///< zstd, or empty
-  std::uint64_t stored_size = 0;       ///< of the records as they follow
+  std::uint64_t stored_size = 0;       ///< bytes of the records as they follow
 
   template <class Self, class Fields>
   static auto visit(Self& self, Fields& fields) {
@@ -150,8 +150,9 @@ struct ChunkIndex {
   std::uint64_t message_start_time = 0;
   std::uint64_t message_end_time = 0;
   std::uint64_t offset = 0;
-  std::uint64_t length = 0;  ///< of the record with its head
-  std::vector<std::pair<std::uint16_t, std::uint64_t>> message_index_offsets;  ///< by channel
+  std::uint64_t length = 0;  ///< bytes of the record with its head
+  std::vector<std::pair<std::uint16_t, std::uint64_t>>
+      message_index_offsets;  ///< offset by channel
   std::uint64_t message_index_length = 0;
   std::string compression;
   std::uint64_t stored_size = 0;
@@ -183,7 +184,7 @@ struct AttachmentHead {
 struct AttachmentIndex {
   static constexpr Opcode kOpcode = Opcode::AttachmentIndex;
   std::uint64_t offset = 0;
-  std::uint64_t length = 0;  ///< of the record with its head
+  std::uint64_t length = 0;  ///< bytes of the record with its head
   std::uint64_t log_time = 0;
   std::uint64_t create_time = 0;
   std::uint64_t data_size = 0;
@@ -207,7 +208,7 @@ struct Statistics {
   std::uint32_t chunk_count = 0;
   std::uint64_t message_start_time = 0;
   std::uint64_t message_end_time = 0;
-  std::vector<std::pair<std::uint16_t, std::uint64_t>> message_counts;  ///< by channel
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> message_counts;  ///< number by channel
 
   template <class Self, class Fields>
   static auto visit(Self& self, Fields& fields) {
@@ -232,7 +233,7 @@ struct Metadata {
 struct MetadataIndex {
   static constexpr Opcode kOpcode = Opcode::MetadataIndex;
   std::uint64_t offset = 0;
-  std::uint64_t length = 0;  ///< of the record with its head
+  std::uint64_t length = 0;  ///< bytes of the record with its head
   std::string name;
 
   template <class Self, class Fields>
@@ -256,7 +257,7 @@ struct SummaryOffset {
 
 struct DataEnd {
   static constexpr Opcode kOpcode = Opcode::DataEnd;
-  std::uint32_t data_crc = 0;  ///< of all bytes in front of this record; 0: none
+  std::uint32_t data_crc = 0;  ///< CRC of all bytes in front of this record; 0: none
 
   template <class Self, class Fields>
   static auto visit(Self& self, Fields& fields) {
@@ -284,8 +285,8 @@ std::string place_of(Opcode opcode, std::uint64_t offset);
 /// A record as it lies in memory.
 struct RecordView {
   Opcode opcode{};
-  std::span<const std::byte> content;  ///< without the head
-  std::uint64_t offset = 0;            ///< of the head
+  std::span<const std::byte> content;  ///< bytes without the head
+  std::uint64_t offset = 0;            ///< that of the head
 };
 
 /// Fields of the record; `rest`, if given, receives what follows the known ones. Error: a field

@@ -14,7 +14,7 @@ namespace orbwatch::hal::mcap {
 /// Opcode and length in front of a record's content.
 struct RecordHead {
   Opcode opcode{};
-  std::uint64_t length = 0;  ///< of the content
+  std::uint64_t length = 0;  ///< bytes of the content
 };
 
 /// Head of the record at `offset`; nullopt: the file of `size` bytes ends within the record.

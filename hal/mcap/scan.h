@@ -16,10 +16,10 @@ struct Scan {
   std::optional<Header> header;  ///< nullopt: the file ends within its header
   Summary summary;
   std::uint64_t data_end = 0;   ///< end of the last complete record; what follows is torn
-  std::uint32_t data_crc = 0;   ///< of all bytes in front of data_end
+  std::uint32_t data_crc = 0;   ///< CRC of all bytes in front of data_end
   std::uint64_t damaged = 0;    ///< chunks and attachments in front of data_end with a wrong CRC
-  MessageIndexes last_indexes;  ///< of the last chunk,
-  bool lacks_indexes = false;   ///< which ends at data_end, when its indexes were torn
+  MessageIndexes last_indexes;  ///< indexes of the last chunk
+  bool lacks_indexes = false;   ///< true: they are torn, and data_end is that chunk's end
 };
 
 /// Reads the whole data section and checks all CRCs. Errors: not an MCAP file, beyond the limits, a

@@ -14,10 +14,10 @@ namespace orbwatch::hal::mcap {
 struct Summary {
   std::map<std::uint16_t, Schema> schemas;
   std::map<std::uint16_t, Channel> channels;
-  std::map<std::uint16_t, std::uint64_t> message_counts;  ///< by channel, if stated
-  std::vector<ChunkIndex> chunks;                         ///< by offset
-  std::vector<AttachmentIndex> attachments;               ///< by offset
-  std::vector<MetadataIndex> metadata;                    ///< by offset
+  std::map<std::uint16_t, std::uint64_t> message_counts;  ///< number by channel, if stated
+  std::vector<ChunkIndex> chunks;                         ///< sorted by offset
+  std::vector<AttachmentIndex> attachments;               ///< sorted by offset
+  std::vector<MetadataIndex> metadata;                    ///< sorted by offset
 
   /// Adds it, or does nothing when it is there. `offset` stands in errors. Errors: another one has
   /// the id; a wrong name; a channel of an unknown schema.

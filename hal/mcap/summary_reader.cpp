@@ -207,22 +207,19 @@ FileResult<std::optional<SummarySection>> find_summary(const File& file, const L
     return file.named({0, place + ": a summary of " + std::to_string(at - begin) +
                               " bytes; at most " + std::to_string(limits.summary)});
   }
-  return SummarySection{begin, offsets, at, (*footer)->summary_crc};
+  SummarySection section{begin, offsets, {}};
+  section.bytes.resize(static_cast<std::size_t>(at + kFooterSize - sizeof(std::uint32_t) - begin));
+  if (auto done = file.read(begin, section.bytes); !done) return error_of(done);
+  const std::uint32_t crc = (*footer)->summary_crc;
+  if (crc != 0 && crc32_of(section.bytes) != crc) return std::nullopt;
+  return section;
 }
 
 FileResult<Summary> read_summary(const File& file, const SummarySection& section,
                                  const Limits& limits) {
-  const std::uint64_t end = section.footer + kFooterSize - sizeof(std::uint32_t);
-  Bytes bytes(static_cast<std::size_t>(end - section.begin));
-  if (auto done = file.read(section.begin, bytes); !done) return error_of(done);
-  if (section.crc != 0 && crc32_of(bytes) != section.crc) {
-    return file.named({0, "summary at byte " + std::to_string(section.begin) + ": its CRC is " +
-                              std::to_string(crc32_of(bytes)) + ", the footer states " +
-                              std::to_string(section.crc)});
-  }
   SummaryRecords records(limits);
   const auto listed =
-      std::span(bytes).first(static_cast<std::size_t>(section.offsets - section.begin));
+      std::span(section.bytes).first(static_cast<std::size_t>(section.offsets - section.begin));
   auto done = for_each_record(listed, section.begin,
                               [&](const RecordView& view) { return records.add(view); });
   if (!done) return file.named(done.error());

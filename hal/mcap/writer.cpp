@@ -36,10 +36,7 @@ std::uint16_t next_id(const std::map<std::uint16_t, Record>& records) {
 }  // namespace
 
 Writer::Writer(File file, const WriterSettings& settings)
-    : file_(std::move(file)),
-      settings_(settings),
-      chunk_(settings.chunk),
-      zstd_(settings.is_compressed ? settings.chunk : 0, settings.level) {}
+    : file_(std::move(file)), settings_(settings), chunk_(settings.chunk), zstd_(settings.level) {}
 
 FileResult<Writer> Writer::create(const std::filesystem::path& path,
                                   const WriterSettings& settings) {

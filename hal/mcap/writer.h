@@ -22,7 +22,7 @@ struct WriterSettings {
   Header header{};                     ///< profile and name of the writer
   std::size_t chunk = 32 * kMebibyte;  ///< most bytes between two calls of flush()
   bool is_compressed = true;           ///< by zstd; not worth its time for JPEG alone
-  int level = 1;                       ///< of zstd
+  int level = 1;                       ///< compression level of zstd
 };
 
 /// Writes a recording. Messages gather in a chunk in memory; flush() writes it with a single
@@ -82,11 +82,11 @@ class Writer {
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::vector<std::uint16_t> new_channels_;  ///< defined in the chunk, not yet in the file
-  std::size_t definition_bytes_ = 0;         ///< of these and their schemas
-  Summary summary_;                          ///< of what is in the file
+  std::size_t definition_bytes_ = 0;         ///< bytes of these and their schemas
+  Summary summary_;                          ///< summary of the file so far
   std::size_t summary_bytes_ = 0;
-  std::uint64_t end_ = 0;  ///< of the data
-  std::uint32_t crc_ = 0;  ///< of all bytes in front of end_
+  std::uint64_t end_ = 0;  ///< end of the data section
+  std::uint32_t crc_ = 0;  ///< CRC of all bytes in front of end_
 };
 
 }  // namespace orbwatch::hal::mcap

@@ -3,6 +3,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,15 +23,16 @@ struct ZstdFree {
   void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
 };
 
-/// Compresses into a buffer that is kept. Thread-bound.
+/// Compresses into a buffer that is kept, and grows with the largest input: a chunk may be large,
+/// but those of a log are small. Thread-bound.
 class ZstdEncoder {
  public:
-  /// Buffer for up to `most` bytes; `level` of zstd, 1 is fast.
-  ZstdEncoder(std::size_t most, int level)
-      : context_(ZSTD_createCCtx()), buffer_(ZSTD_compressBound(most)), level_(level) {}
+  /// `level` of zstd, 1 is fast.
+  explicit ZstdEncoder(int level) : context_(ZSTD_createCCtx()), level_(level) {}
 
   /// Compressed bytes, valid until the next call. Error: out of memory.
   FileResult<std::span<const std::byte>> encode(std::span<const std::byte> bytes) {
+    buffer_.resize(std::max(buffer_.size(), ZSTD_compressBound(bytes.size())));
     const std::size_t size = context_
                                  ? ZSTD_compressCCtx(context_.get(), buffer_.data(), buffer_.size(),
                                                      bytes.data(), bytes.size(), level_)

@@ -43,7 +43,7 @@ Result<const CameraModule*> module_in(void* library, const fs::path& file,
                                       std::string_view back_end) {
   const auto entry = reinterpret_cast<CameraModuleEntry>(::dlsym(library, kCameraModuleEntry));
   const CameraModule* const module = entry != nullptr ? entry() : nullptr;
-  if (module == nullptr) return fail(file.string() + ": is no camera module of orbwatch");
+  if (module == nullptr) return fail(file.string() + ": is not a camera module of orbwatch");
   return check(*module, file, back_end).map([module] { return module; });
 }
 

@@ -16,7 +16,7 @@ namespace orbwatch::hal::recording {
 struct CameraChannels {
   mcap::Channel pictures;
   bool is_jpeg = false;
-  std::optional<std::uint16_t> info;  ///< of CameraInfo; none: the pictures are whole
+  std::optional<std::uint16_t> info;  ///< channel of CameraInfo; absent: the pictures are whole
 };
 
 /// Type of a channel's messages; empty: not plain CDR with a schema.

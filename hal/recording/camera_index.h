@@ -22,7 +22,7 @@ struct RecordedExposure {
   std::uint64_t set_time = 0;  ///< stamp of its frame set
   std::uint64_t start = 0;
   std::uint32_t sequence = 0;            ///< low 32 bits of the frame's number
-  std::optional<std::uint64_t> trigger;  ///< of the frame set
+  std::optional<std::uint64_t> trigger;  ///< trigger of the frame set
   PictureRegion region;
   std::size_t chunk = 0;
   std::size_t message = 0;  ///< number in the chunk
@@ -43,7 +43,7 @@ inline constexpr std::chrono::seconds kLongestAge{10};
 /// Pictures of one camera of a recording.
 struct CameraIndex {
   CameraChannels channels;
-  StreamFormat format;  ///< of the camera's whole picture
+  StreamFormat format;  ///< format of the camera's whole picture
   std::vector<RecordedExposure> exposures;
   RecordedTime time;
   std::uint64_t triggers = 0;  ///< from the first to the last one of all frame sets

@@ -11,11 +11,21 @@ Result<CameraRecording> CameraRecording::open(const std::filesystem::path& file,
   if (!reader) return fail(reader.error().message);
   auto index = index_camera(*reader, camera);
   if (!index) return fail(file.string() + ": " + index.error().message);
-  return CameraRecording(file, std::move(*reader), std::move(*index));
+  return CameraRecording(file, std::move(*reader),
+                         std::make_shared<const CameraIndex>(std::move(*index)));
+}
+
+Result<CameraRecording> CameraRecording::open(const std::filesystem::path& file,
+                                              std::shared_ptr<const CameraIndex> index) {
+  auto reader = mcap::Reader::open_finished(file);
+  if (!reader) return fail(reader.error().message);
+  return CameraRecording(file, std::move(*reader), std::move(index));
 }
 
 /// Loads the message of the exposure.
 Result<mcap::Message> CameraRecording::load(const RecordedExposure& exposure) {
+  constexpr const char* kChanged = "the recording has changed since it was read first";
+  if (exposure.chunk >= reader_.summary().chunks.size()) return fail(kChanged);
   if (exposure.chunk != chunk_ || exposure.message < next_) {
     chunk_ = static_cast<std::size_t>(-1);
     if (const auto loaded = reader_.load_chunk(exposure.chunk); !loaded) {
@@ -27,20 +37,20 @@ Result<mcap::Message> CameraRecording::load(const RecordedExposure& exposure) {
   while (auto message = reader_.next()) {
     if (next_++ == exposure.message) return *message;
   }
-  return fail("the chunk has changed since it was read first");
+  return fail(kChanged);
 }
 
 Error CameraRecording::named(std::size_t exposure, const Error& error) const {
-  return {file_.string() + ": " + index_.channels.pictures.topic + ", picture " +
+  return {file_.string() + ": " + index_->channels.pictures.topic + ", picture " +
           std::to_string(exposure) + ": " + error.message};
 }
 
 Result<RecordedPart> CameraRecording::part(std::size_t exposure) {
-  const RecordedExposure& place = index_.exposures.at(exposure);
-  const StreamFormat& whole = index_.format;
+  const RecordedExposure& place = index_->exposures.at(exposure);
+  const StreamFormat& whole = index_->format;
   return load(place)
       .and_then([&](const mcap::Message& message) {
-        return part_in(message, index_.channels, whole.format);
+        return part_in(message, index_->channels, whole.format);
       })
       .and_then([&](RecordedPart part) -> Result<RecordedPart> {
         const PicturePlace in_whole{whole.width, whole.height, place.region};
@@ -55,7 +65,7 @@ Result<FrameStatus> CameraRecording::read(std::size_t exposure, const MutablePic
   const auto recorded = part(exposure);
   if (!recorded) return tl::unexpected(recorded.error());
   blacken(target);
-  return place_part(*recorded, index_.exposures[exposure].region, *jpeg_, target)
+  return place_part(*recorded, index_->exposures[exposure].region, *jpeg_, target)
       .map_error([&](const Error& error) { return named(exposure, error); });
 }
 

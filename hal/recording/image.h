@@ -19,7 +19,7 @@ std::string_view encoding_of(PixelFormat format);
 Image image_of(const Picture& part, Header header, mcap::Bytes& pixels);
 
 /// The picture in a message of any origin, whose pixels stay there, of any alignment. mono16 is
-/// `grey16`: Y10, Y12 or Y16, see CameraStream. Errors: an unknown encoding; sides of 0, above
+/// `grey16`: Y10, Y12 or Y16, see read_metadata(). Errors: an unknown encoding; sides of 0, above
 /// kMaxSide or odd where pixels share chroma; big-endian samples; a step that is too short, or that
 /// 16-bit samples or chroma cannot have; another number of bytes than sides and step make.
 /// Reentrant.

@@ -48,7 +48,7 @@ struct Image {
   Header header;
   std::uint32_t height = 0, width = 0;
   std::string encoding;           ///< see encoding_of()
-  std::uint8_t is_bigendian = 0;  ///< of samples of 16 bit
+  std::uint8_t is_bigendian = 0;  ///< byte order of 16-bit samples
   std::uint32_t step = 0;         ///< bytes from row to row of the first plane
   std::span<const std::byte> data;
 
@@ -94,7 +94,7 @@ struct RegionOfInterest {
 struct CameraInfo {
   static constexpr std::string_view kType = "sensor_msgs/msg/CameraInfo";
   Header header;
-  std::uint32_t height = 0, width = 0;  ///< of the camera's whole picture
+  std::uint32_t height = 0, width = 0;  ///< sides of the camera's whole picture
   std::string distortion_model;
   std::vector<double> d;
   std::array<double, 9> k{};  ///< all 0: not calibrated

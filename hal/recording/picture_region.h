@@ -18,7 +18,7 @@ struct PictureRegion {
 
 /// A camera's whole picture, of which a recording has a region.
 struct PicturePlace {
-  int width = 0, height = 0;  ///< of the whole picture
+  int width = 0, height = 0;  ///< sides of the whole picture
   PictureRegion region;
 
   bool operator==(const PicturePlace&) const = default;

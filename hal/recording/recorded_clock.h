@@ -32,7 +32,7 @@ class RecordedClock {
 
   mcap::Metadata metadata() const { return {std::string(kName), {{kKey, std::to_string(utc_)}}}; }
 
-  /// That of the recording; UTC itself if it states none. Error: a wrong number; damaged.
+  /// Clock of the recording; UTC itself if it states none. Error: a wrong number; damaged.
   static Result<RecordedClock> of(mcap::Reader& reader) {
     const auto& all = reader.summary().metadata;
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/mcap/cdr.h"
+#include "hal/mcap/limits.h"
 #include "hal/recording/camera_stream.h"
 #include "hal/recording/image.h"
 
@@ -103,6 +104,24 @@ Result<FrameStatus> place_part(const RecordedPart& part, const PictureRegion& re
                            : decoder.decode_packed(part.jpeg, target.samples<std::uint8_t>());
   if (!decoded) return fail("JPEG: " + decoded.error().message);
   return decoder.is_flawed() ? FrameStatus::Flawed : FrameStatus::Intact;
+}
+
+Result<Picture> pixels_of(const RecordedPart& part, const ColourSpace& colour_space,
+                          JpegDecoder& decoder, std::vector<std::byte>& buffer) {
+  const int stride = row_bytes(part.format, part.width);
+  const std::size_t bytes =
+      picture_bytes(part.format, static_cast<std::size_t>(stride), part.height);
+  if (bytes > mcap::Limits{}.chunk) {
+    return fail("a picture of " + std::to_string(part.width) + "x" + std::to_string(part.height) +
+                "; it must be at most 64 MiB large");
+  }
+  buffer.resize(bytes);
+  auto target =
+      MutablePicture::contiguous(part.format, part.width, part.height, buffer.data(), stride);
+  target.colour_space = colour_space;
+  return place_part(part, {0, 0, part.width, part.height}, decoder, target).map([&](FrameStatus) {
+    return Picture(target);
+  });
 }
 
 }  // namespace orbwatch::hal::recording

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "hal/camera.h"
 #include "hal/jpeg/jpeg_decoder.h"
@@ -19,8 +21,8 @@ struct RecordedPart {
   Header header;
   PixelFormat format{};
   int width = 0, height = 0;
-  std::optional<Picture> pixels;    ///< none: it is
-  std::span<const std::byte> jpeg;  ///< JPEG
+  std::optional<Picture> pixels;    ///< absent: the part is JPEG
+  std::span<const std::byte> jpeg;  ///< JPEG data; empty if `pixels` is set
 };
 
 /// Format of a camera's pictures by the first one and the channel's metadata, without the sides.
@@ -36,5 +38,10 @@ Result<RecordedPart> part_in(const mcap::Message& message, const CameraChannels&
 /// JpegDecoder calls so. Error: damaged JPEG.
 Result<FrameStatus> place_part(const RecordedPart& part, const PictureRegion& region,
                                JpegDecoder& decoder, const MutablePicture& whole);
+
+/// Pixels of the part alone in `buffer`, without padding: the whole picture of a recording of any
+/// origin may be larger than the memory. Errors: damaged JPEG; more than mcap::Limits::chunk.
+Result<Picture> pixels_of(const RecordedPart& part, const ColourSpace& colour_space,
+                          JpegDecoder& decoder, std::vector<std::byte>& buffer);
 
 }  // namespace orbwatch::hal::recording

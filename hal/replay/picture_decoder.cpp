@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <string>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include "hal/jpeg/jpeg_decoder.h"
 #include "hal/png/png_decoder.h"
+#include "hal/regular_file.h"
 #include "hal/replay/exif_orientation.h"
 
 namespace orbwatch::hal {
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 /// A picture whose pixels are to be written.
 struct NewPicture {
@@ -153,20 +150,9 @@ Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::stri
 }
 
 Result<DecodedPicture> read_picture(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (error) return fail(path.string() + ": " + error.message());
-  if (!std::filesystem::is_regular_file(status)) return fail(path.string() + ": is not a file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return fail(path.string() + ": " + error.message());
-  if (size > kMaxFileBytes) return fail(path.string() + ": is larger than 1 GiB");
-  std::vector<std::byte> file(size);
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(size));
-  if (!stream) {
-    return fail(path.string() + ": cannot be read: " + std::generic_category().message(errno));
-  }
-  return decode_picture(file, path.string());
+  return read_regular_file(path, kMaxFileBytes).and_then([&](const std::string& file) {
+    return decode_picture(std::as_bytes(std::span(file)), path.string());
+  });
 }
 
 }  // namespace orbwatch::hal

@@ -16,7 +16,7 @@ namespace orbwatch::hal {
 namespace {
 
 constexpr double kFolderFrameRate = 30.0;
-constexpr std::chrono::seconds kLateEnoughToTell{1};
+constexpr std::chrono::seconds kReportedLateness{1};
 
 Clock::duration offset(std::uint64_t exposure, double frame_rate) {
   return std::chrono::duration_cast<Clock::duration>(
@@ -109,7 +109,7 @@ std::uint64_t ReplayCamera::next(std::uint64_t number, Clock::duration elapsed) 
   if (!recording_->moment(number)) {
     return std::max(number + 1, exposure_at(elapsed, format_.frame_rate));
   }
-  const bool is_late = moment(number + 1).offset + kLateEnoughToTell < elapsed;
+  const bool is_late = moment(number + 1).offset + kReportedLateness < elapsed;
   for (++number; is_late && moment(number + 1).offset <= elapsed;) ++number;
   return number;
 }
@@ -135,7 +135,7 @@ bool ReplayCamera::expose(std::uint64_t number, TimePoint start, const std::stop
     }
     return fault != Fault::Unplugged;
   }
-  if (Clock::now() - due > kLateEnoughToTell) {
+  if (Clock::now() - due > kReportedLateness) {
     report(Fault::Stalled, "the recording decodes slower than it is played");
   }
   buffer->picture.colour_space = format_.colour_space;

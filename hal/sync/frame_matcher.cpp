@@ -63,13 +63,14 @@ void FrameMatcher::put(std::size_t camera, Frame frame, TimePoint now, ReleasedF
 
 void FrameMatcher::observe(Inbox& inbox, const FrameMetadata& metadata, TimePoint now) {
   ++inbox.counts.frames;
-  inbox.delivers = true;
+  const bool continues = std::exchange(inbox.delivers, true);
   inbox.interval = Clock::duration::zero();
   if (inbox.last && metadata.sequence > inbox.last->sequence) {
     const std::uint64_t steps = metadata.sequence - inbox.last->sequence;
     const Clock::duration elapsed = metadata.exposure_start - inbox.last->exposure_start;
     inbox.counts.lost += steps - 1;
-    if (elapsed.count() > 0) {
+    // The first interval after a fault is the length of the outage.
+    if (continues && elapsed.count() > 0) {
       inbox.interval = Clock::duration(
           static_cast<Clock::rep>(static_cast<std::uint64_t>(elapsed.count()) / steps));
     }

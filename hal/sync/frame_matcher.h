@@ -144,7 +144,7 @@ class FrameMatcher {
   std::array<Inbox, kMaxCameras> inboxes_;
   std::uint64_t sets_ = 0;
   std::optional<std::uint64_t> last_trigger_;  ///< trigger of the newest triggered set
-  std::optional<TimePoint> last_stamp_;        ///< of the last set
+  std::optional<TimePoint> last_stamp_;        ///< stamp of the last set
 };
 
 }  // namespace orbwatch::hal

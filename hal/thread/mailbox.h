@@ -21,13 +21,13 @@ class Doorbell {
 
   /// Returns when it was rung since the previous wait.
   void wait() {
-    rings_.wait(heard_, std::memory_order_acquire);
-    heard_ = rings_.load(std::memory_order_acquire);
+    rings_.wait(seen_rings_, std::memory_order_acquire);
+    seen_rings_ = rings_.load(std::memory_order_acquire);
   }
 
  private:
   std::atomic<int> rings_{0};  // the kernel waits for an int without a lock
-  int heard_ = 0;              // used by the waiting thread only
+  int seen_rings_ = 0;         // used by the waiting thread only
 };
 
 /// Queue of depth one between two threads: the newest value wins, replaced ones are counted. A

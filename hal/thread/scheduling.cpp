@@ -149,7 +149,10 @@ void schedule_this_thread(ThreadRole role) {
   // Permitted already, or without effect; schedule_threads() has reported which.
   if (priority > 0 && present.realtime) run_first_in_first_out(priority);
   if (role == ThreadRole::Background) {
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kBackgroundNice);
+    const auto thread = static_cast<id_t>(::gettid());
+    // A process that was started with nice stays there: its frame path comes first.
+    const int nice = std::max(kBackgroundNice, ::getpriority(PRIO_PROCESS, thread));
+    ::setpriority(PRIO_PROCESS, thread, nice);
   }
 }
 

@@ -67,7 +67,7 @@ SharedThreads::Work* SharedThreads::next() {
   return first;
 }
 
-void SharedThreads::do_one(Work& work, std::unique_lock<std::mutex>& lock) {
+void SharedThreads::do_one(Work& work, std::unique_lock<PriorityMutex>& lock) {
   work.due_ = TimePoint::max();
   work.runs_ = true;
   lock.unlock();

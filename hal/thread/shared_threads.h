@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hal/clock.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::hal {
@@ -69,11 +70,11 @@ class SharedThreads {
  private:
   void serve(Thread& thread);
   Work* next();
-  void do_one(Work& work, std::unique_lock<std::mutex>& lock);
+  void do_one(Work& work, std::unique_lock<PriorityMutex>& lock);
 
-  std::mutex mutex_;  ///< never held across work
+  PriorityMutex mutex_;  ///< never held across work
   std::condition_variable_any changed_;
-  std::condition_variable ended_;
+  std::condition_variable_any ended_;
   std::vector<Work*> works_;
   std::vector<Thread> threads_;
 };

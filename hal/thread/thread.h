@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "hal/clock.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/scheduling.h"
 
 namespace orbwatch::hal {
@@ -76,7 +77,7 @@ class Thread {
  private:
   static constexpr clockid_t kNoClock = CLOCK_REALTIME;  ///< never the clock of a thread
 
-  std::mutex mutex_;
+  PriorityMutex mutex_;
   std::condition_variable_any changed_;
   bool woken_ = false;
   std::stop_source stop_{std::nostopstate};

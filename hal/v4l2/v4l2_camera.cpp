@@ -64,12 +64,8 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
       negotiate_format(device, {pixel_format, settings_.colour, request, settings_.frame_height,
                                 settings_.first_row, settings_.is_radiometric});
   if (!negotiated) return tl::unexpected(negotiated.error());
-  std::vector<Control> controls;
-  {
-    const std::lock_guard lock(controls_mutex_);
-    controls = controls_;
-  }
-  for (const auto& [control, value] : controls) {
+  const std::lock_guard lock(controls_mutex_);
+  for (const auto& [control, value] : controls_) {
     if (auto done = set_control(device, control, value); !done) {
       return fail(Fault::ReadError, done.error().message);
     }
@@ -90,7 +86,7 @@ Result<V4l2Camera::TriggerButton> V4l2Camera::find_button() const {
   if (!device) return fail(device.error().detail);
   const auto control = find_control(*device, "TriggerSoftware");
   if (!control) return tl::unexpected(control.error());
-  if (control->type != V4L2_CTRL_TYPE_BUTTON) return fail("its TriggerSoftware is no button");
+  if (control->type != V4L2_CTRL_TYPE_BUTTON) return fail("its TriggerSoftware is not a button");
   return TriggerButton{std::move(*device), *control};
 }
 
@@ -107,10 +103,10 @@ Result<> V4l2Camera::do_set(std::string_view control, double value) {
   // Controls do not belong to the stream: any descriptor of the device can set them.
   auto device = open();
   if (!device) return fail(device.error().detail);
+  const std::lock_guard lock(controls_mutex_);
   if (auto done = set_control(*device, control, value); !done) return done;
   if (is_button(*device, control)) return {};
   read_controls(*device);
-  const std::lock_guard lock(controls_mutex_);
   const auto known = std::ranges::find(controls_, control, &Control::first);
   if (known != controls_.end()) {
     known->second = value;

@@ -78,7 +78,7 @@ class V4l2Camera : public DeviceCamera {
   std::atomic<std::chrono::microseconds> exposure_time_{};  ///< exposure_time(), cached
   std::mutex button_mutex_;
   Result<TriggerButton> button_ = fail("does not run");
-  std::mutex controls_mutex_;
+  std::mutex controls_mutex_;  ///< held until device and stored controls agree
   /// The stored controls, in the order of their first setting.
   std::vector<Control> controls_;
 };

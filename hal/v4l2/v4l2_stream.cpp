@@ -8,12 +8,10 @@
 #include <utility>
 
 #include "hal/frame/buffer_count.h"
+#include "hal/frame/exposure_start.h"
 
 namespace orbwatch::hal {
 namespace {
-
-/// A driver's few buffers hold no older frame; an older stamp belongs to another clock.
-constexpr std::chrono::seconds kOldest{60};
 
 /// The picture in a driver's memory.
 Picture describe(const DriverFrame& frame, const NegotiatedFormat& format,
@@ -38,7 +36,7 @@ FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival) {
   }
   const TimePoint stamp{std::chrono::seconds(buffer.timestamp.tv_sec) +
                         std::chrono::microseconds(buffer.timestamp.tv_usec)};
-  if (stamp > arrival || stamp < arrival - kOldest) return none;
+  if (!is_plausible(stamp, arrival)) return none;
   const bool start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   return {stamp, start ? StampSource::ExposureStart : StampSource::FrameEnd};
 }

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -32,6 +33,9 @@ class BreakingCamera : public DeviceCamera {
       : DeviceCamera({"breaking", "", "test"}), lives_(std::move(lives)) {}
   ~BreakingCamera() override { stop(); }
 
+  void connect(bool connected) { connected_ = connected; }
+  /// Gain that was set when each frame was captured. Call after stop().
+  const std::vector<double>& gains() const { return gains_; }
   int waits() const { return waits_; }  ///< number of waits that began
   int interrupts() const {
     const std::lock_guard lock(mutex_);
@@ -41,7 +45,15 @@ class BreakingCamera : public DeviceCamera {
  private:
   Result<StreamFormat> do_configure(const StreamRequest&) override { return StreamFormat{}; }
 
+  Result<> do_set(std::string_view, double value) override {
+    if (!connected_) return fail("is not connected");
+    if (value < 0) return fail("gain is below 0");
+    gain_ = value;
+    return {};
+  }
+
   DeviceResult<double> open_stream() override {
+    if (!connected_) return tl::unexpected(FaultReport{Fault::Unplugged, "is not connected"});
     captured_ = 0;
     life_ = {.may_be_silent = true};
     if (lives_.empty()) return 0;
@@ -61,6 +73,7 @@ class BreakingCamera : public DeviceCamera {
     }
     auto frame = pool_.acquire();
     frame->metadata.sequence = sequence_of(static_cast<std::uint32_t>(captured_));
+    gains_.push_back(gain_);
     forward(std::move(frame));
     ++captured_;
     return 1;
@@ -83,6 +96,9 @@ class BreakingCamera : public DeviceCamera {
 
   FramePool pool_ = make_frame_pool(PixelFormat::Grey, 8, 8);
   std::deque<Life> lives_;
+  std::atomic<bool> connected_ = true;
+  std::atomic<double> gain_ = 0;
+  std::vector<double> gains_;
   std::atomic<int> waits_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable interrupted_;
@@ -140,6 +156,40 @@ TEST(DeviceCamera, ReportsALastingFaultOnce) {
   reports.start(camera);
   EXPECT_EQ(reports.wait_for_faults(3),
             (std::vector{Fault::Unplugged, Fault::None, Fault::Stalled}));
+}
+
+TEST(DeviceCamera, ControlsSetWhileItIsUnpluggedAreSetBeforeTheNextFrame) {
+  BreakingCamera camera({{2, Fault::Stalled}});
+  EXPECT_TRUE(camera.set("Gain", 1));
+  camera.connect(false);
+  EXPECT_FALSE(camera.set("Gain", 2)) << "it does not run yet";
+  Reports reports;
+  reports.start(camera);
+  EXPECT_EQ(reports.wait_for_faults(1), std::vector{Fault::Unplugged});
+  EXPECT_TRUE(camera.set("Gain", 3));
+  EXPECT_TRUE(camera.set("Gain", 4));
+  camera.connect(true);
+  EXPECT_EQ(reports.wait_for_faults(3),
+            (std::vector{Fault::Unplugged, Fault::None, Fault::Stalled}));
+  EXPECT_FALSE(camera.set("Gain", -1)) << "it is there again";
+  camera.stop();
+  EXPECT_EQ(camera.gains(), (std::vector<double>{4, 4}));
+}
+
+TEST(DeviceCamera, AKeptControlThatItRefusesIsAFaultUntilAnotherValueIsSet) {
+  BreakingCamera camera({{1, Fault::None}, {1, Fault::Stalled}});
+  camera.connect(false);
+  Reports reports;
+  reports.start(camera);
+  reports.wait_for_faults(1);
+  EXPECT_TRUE(camera.set("Gain", -1));
+  camera.connect(true);
+  EXPECT_EQ(reports.wait_for_faults(2), (std::vector{Fault::Unplugged, Fault::Refused}));
+  EXPECT_TRUE(camera.set("Gain", 5));
+  EXPECT_EQ(reports.wait_for_faults(4),
+            (std::vector{Fault::Unplugged, Fault::Refused, Fault::None, Fault::Stalled}));
+  camera.stop();
+  EXPECT_EQ(camera.gains(), std::vector<double>{5});
 }
 
 TEST(StallTimeout, IsFivePeriodsAndASecondAtLeast) {

@@ -58,11 +58,11 @@ TEST_F(RegularFile, IsNoFolder) { expect_refused(folder.path(), "Is a directory"
 
 TEST_F(RegularFile, IsNoPipeWhichIsNotWaitedFor) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  expect_refused(folder / "pipe", "is a pipe or a device, no regular file");
+  expect_refused(folder / "pipe", "is a pipe or a device, not a regular file");
 }
 
 TEST_F(RegularFile, IsNoDeviceWithoutAnEnd) {
-  expect_refused("/dev/zero", "is a pipe or a device, no regular file");
+  expect_refused("/dev/zero", "is a pipe or a device, not a regular file");
 }
 
 TEST_F(RegularFile, ThatMayNotBeReadIsRefused) {

@@ -15,7 +15,7 @@ namespace orbwatch::hal {
 class TimestampLatch {
  public:
   struct Reading {
-    std::chrono::nanoseconds device;  ///< camera's time, latched between the two:
+    std::chrono::nanoseconds device;  ///< camera's time, latched between `before` and `after`
     TimePoint before, after;
   };
 

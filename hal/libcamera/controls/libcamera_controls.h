@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hal/inventory.h"
+#include "hal/thread/priority_mutex.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
@@ -49,8 +50,8 @@ class ControlSettings {
   void add_changes(libcamera::ControlList& request);
 
  private:
-  std::atomic<bool> changed_{false};  ///< saves the frame path from locking
-  mutable std::mutex mutex_;
+  std::atomic<bool> changed_{false};  ///< true while changes_ holds settings for the next request
+  mutable PriorityMutex mutex_;
   libcamera::ControlList all_;
   libcamera::ControlList changes_;
 };

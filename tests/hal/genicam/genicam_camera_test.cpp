@@ -210,12 +210,12 @@ TEST_F(OnFakeCamera, AThermalCameraSaysTheScaleOfItsCountsAndHasLimitsForItsFeat
       return camera.count_scale().value_or(CountScale{-1, "nothing"});
     };
     EXPECT_EQ(scale().kelvin_per_count, 0);
-    EXPECT_EQ(scale().said_by, "IRFormat is Radiometric");
+    EXPECT_EQ(scale().stated_by, "IRFormat is Radiometric");
     ASSERT_EQ(refusal(camera.set("IRFormat", 2)), "");
     EXPECT_EQ(scale().kelvin_per_count, 0.01);
     ASSERT_EQ(refusal(camera.set("IRFormat", 1)), "");
     EXPECT_EQ(scale().kelvin_per_count, 0.1);
-    EXPECT_EQ(scale().said_by, "IRFormat is TemperatureLinear100mK");
+    EXPECT_EQ(scale().stated_by, "IRFormat is TemperatureLinear100mK");
     EXPECT_THAT(refusal(camera.set("IRFormat", 3)),
                 HasSubstr("IRFormat cannot be 3; it takes 0 = Radiometric, "
                           "1 = TemperatureLinear100mK, 2 = TemperatureLinear10mK"));
@@ -226,6 +226,8 @@ TEST_F(OnFakeCamera, AThermalCameraSaysTheScaleOfItsCountsAndHasLimitsForItsFeat
     Receiver<std::uint64_t> receiver(
         [](const FrameBuffer& frame) { return frame.metadata.sequence; });
     receiver.start(camera);
+    EXPECT_THAT(refusal(camera.set("IRFormat", 2)), HasSubstr("it changes what a count means"))
+        << "before its stream is open";
     receiver.wait_for(1);
     EXPECT_EQ(refusal(camera.set("IRFormat", 1)), "");
     EXPECT_THAT(refusal(camera.set("IRFormat", 2)), HasSubstr("it changes what a count means"));
@@ -467,6 +469,25 @@ TEST_F(OnFakeCamera, ComesBackWithItsFeaturesWhenTheCameraWasRestarted) {
       EXPECT_EQ(receiver.wait_for(receiver.count() + 1).back(), 20ms);
       EXPECT_EQ(open_files(), files);
     }
+  });
+}
+
+TEST_F(OnFakeCamera, AFeatureThatIsSetWhileTheCameraIsAwayIsSetWhenItComesBack) {
+  run([](FakeGigeCamera& fake) {
+    GenicamCamera camera(settings("Mono16"));
+    configure(camera);
+    ASSERT_EQ(refusal(camera.set("ExposureTime", 20000)), "");
+    Receiver<std::chrono::microseconds> receiver(
+        [](const FrameBuffer& frame) { return frame.metadata.exposure_time; });
+    receiver.start(camera);
+    receiver.wait_for(1);
+    fake.kill();
+    ASSERT_TRUE(tests::comes_true(
+        [&] { return receiver.wait_for_faults(1).back().fault == Fault::Unplugged; }));
+    EXPECT_EQ(refusal(camera.set("ExposureTime", 30000)), "");
+    fake.start();
+    receiver.wait_for_return(0);
+    EXPECT_EQ(receiver.wait_for(receiver.count() + 1).back(), 30ms);
   });
 }
 

@@ -316,10 +316,11 @@ TEST(Vimc, IsLostWithItsDriverAndTheProgramLives) {
   ASSERT_NO_FATAL_FAILURE(write_to("/sys/bus/platform/drivers/vimc/unbind", "vimc.0"));
   EXPECT_TRUE(witness.is_told(Fault::Unplugged));
   EXPECT_EQ(mean_of(before->picture), mean) << "held frames stay valid";
-  const auto set = camera.set("Brightness", 0);
-  ASSERT_FALSE(set);
-  EXPECT_THAT(set.error().message, HasSubstr("restart"));
+  EXPECT_TRUE(camera.set("Brightness", 0)) << "recipes change without it";
   camera.stop();
+  const auto again = camera.configure({320, 240, 1});
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message, HasSubstr("restart"));
 }
 
 }  // namespace

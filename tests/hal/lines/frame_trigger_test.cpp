@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <optional>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/hal/lines/edges.h"
@@ -99,19 +101,43 @@ TEST(FrameTrigger, DelaysTheExposure) {
   EXPECT_EQ(stamp->edge, at(10)) << "the stamp is the edge's own";
 }
 
-TEST(FrameTrigger, AStormLeavesEachFrameATrigger) {
+TEST(FrameTrigger, AStormLeavesEachFrameTheTriggerBeforeIt) {
   FrameTrigger trigger(line_settings(), never);
   std::uint64_t frames = 0;
-  for (int edge = 0; edge < 10000; ++edge) {
-    trigger.on_edge(rising(edge));
-    if (edge % 100 != 99) continue;
+  for (std::uint64_t edge = 1; edge <= 10000; ++edge) {
+    trigger.on_edge(rising(static_cast<double>(edge)));
+    if (edge % 100 != 0) continue;
     ++frames;
-    EXPECT_TRUE(trigger.claim(at(edge - 99.5 + (frames > 1 ? 0 : 1))));
+    const auto stamp = trigger.claim(at(static_cast<double>(edge) - 29.7));
+    ASSERT_TRUE(stamp);
+    EXPECT_EQ(stamp->id, edge - 30);
   }
   EXPECT_EQ(trigger.counts().triggers, 10000U);
   EXPECT_EQ(trigger.counts().frames, frames);
   EXPECT_EQ(sum(trigger.counts()), 10000U);
   EXPECT_LE(trigger.counts().waiting, FrameTrigger::kMaxWaiting);
+}
+
+TEST(FrameTrigger, BeyondTheLimitTriggersThatAreNotDueKeepTheirFrames) {
+  constexpr double kPeriod = 50, kDelay = 2000;  // ms: 40 triggers would wait
+  TriggerSettings settings = line_settings();
+  settings.delay = milliseconds(2000);
+  FrameTrigger trigger(settings, never);
+  constexpr int kEdges = 200;
+  int edge = 0, frames = 0;
+  for (int frame = 0; frame < kEdges; ++frame) {
+    const double exposure = kPeriod * frame + kDelay + 0.1;
+    for (; edge < kEdges && kPeriod * edge < exposure; ++edge) {
+      trigger.on_edge(rising(kPeriod * edge));
+    }
+    const auto stamp = trigger.claim(at(exposure));
+    if (!stamp) continue;
+    ++frames;
+    EXPECT_EQ(stamp->edge, at(kPeriod * frame)) << "its own";
+  }
+  EXPECT_GE(frames, kEdges * 32 / 40);
+  EXPECT_EQ(trigger.counts().missed, static_cast<std::uint64_t>(kEdges - frames));
+  EXPECT_EQ(sum(trigger.counts()), static_cast<std::uint64_t>(kEdges));
 }
 
 TEST(FrameTrigger, ACameraFaultMissesWhatWaits) {
@@ -121,6 +147,35 @@ TEST(FrameTrigger, ACameraFaultMissesWhatWaits) {
   trigger.abandon();
   EXPECT_EQ(trigger.counts().missed, 2U);
   EXPECT_FALSE(trigger.claim(at(3)));
+}
+
+/// Claims a trigger `pause` ms after the last of 40 edges, one a second, during an outage.
+std::pair<std::optional<TriggerStamp>, TriggerCounts> claimed_after_outage(double pause) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.on_edge(rising(0));
+  trigger.abandon();
+  constexpr int kEdges = 40;
+  static_assert(kEdges > FrameTrigger::kMaxWaiting);
+  for (int edge = 1; edge <= kEdges; ++edge) trigger.on_edge(rising(1000.0 * edge));
+  const auto stamp = trigger.claim(at(1000.0 * kEdges + pause));
+  return {stamp, trigger.counts()};
+}
+
+TEST(FrameTrigger, AFrameAfterAnOutageBelongsToTheTriggerThatBeganIt) {
+  const auto [stamp, counts] = claimed_after_outage(0.1);
+  ASSERT_TRUE(stamp);
+  EXPECT_EQ(stamp->id, 41U);
+  EXPECT_EQ(stamp->edge, at(40000));
+  EXPECT_EQ(counts.missed, 40U);
+  EXPECT_EQ(counts.waiting, 0U);
+}
+
+TEST(FrameTrigger, AFrameLongAfterTheTriggersOfAnOutageBelongsToNone) {
+  const auto [stamp, counts] = claimed_after_outage(60000);
+  EXPECT_FALSE(stamp);
+  EXPECT_EQ(counts.missed, 41U);
+  EXPECT_EQ(counts.untriggered, 1U);
+  EXPECT_EQ(counts.waiting, 0U);
 }
 
 TEST(FrameTrigger, ADamagedFrameMissesItsTriggerOnly) {
@@ -236,6 +291,18 @@ TEST(SoftwareTrigger, ACameraThatNeverAnswersIsAskedAgainAfterTheTimeout) {
   EXPECT_EQ(asked, 2);
   EXPECT_EQ(trigger.counts().missed, 1U);
   EXPECT_EQ(trigger.claim(at(1011))->id, 2U);
+}
+
+TEST(SoftwareTrigger, BeyondTheLimitTheNewestIsMissed) {
+  int asked = 0;
+  TriggerSettings settings = software_settings();
+  settings.delay = std::chrono::seconds(1);
+  FrameTrigger trigger(settings, [&asked]() -> Result<> { return ++asked, Result<>(); });
+  for (std::size_t n = 0; n <= FrameTrigger::kMaxWaiting; ++n) trigger.fire(at(0));
+  EXPECT_EQ(trigger.counts().missed, 1U);
+  trigger.run(at(1000));
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(trigger.claim(at(1001))->id, 1U);
 }
 
 TEST(SoftwareTrigger, ARefusalIsMissed) {

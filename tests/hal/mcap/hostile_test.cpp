@@ -45,7 +45,7 @@ Bytes chunk(const Bytes& records, const std::string& compression = "",
             std::optional<std::uint64_t> said = {}) {
   Bytes stored = records;
   if (compression == kZstd) {
-    ZstdEncoder encoder(records.size(), 1);
+    ZstdEncoder encoder(1);
     const auto encoded = *encoder.encode(records);
     stored.assign(encoded.begin(), encoded.end());
   }
@@ -208,14 +208,10 @@ TEST(McapHostile, FieldsBeyondTheirRecordsAreRefused) {
   expect_refused(begin() + chunk(inner), "255 bytes long, but 22 bytes are left");
 }
 
-TEST(McapHostile, ADamagedSummaryOrFooterIsRefused) {
-  const Bytes data = chunk(definitions() + message(1));
-  const Bytes good = finished(data, [](Summary&) {});
-  Bytes bytes = good;
-  bytes[begin().size() + data.size() + kDataEndSize + 12] ^= std::byte{1};
-  expect_refused(bytes, ": its CRC is ");
+TEST(McapHostile, ADamagedFooterIsRefused) {
+  const Bytes good = finished(chunk(definitions() + message(1)), [](Summary&) {});
   for (const std::size_t field : {0, 8}) {
-    bytes = good;
+    Bytes bytes = good;
     bytes[bytes.size() - 8 - 20 + field + 7] = std::byte{1};
     expect_refused(bytes, "they must lie in this order");
   }

@@ -96,6 +96,34 @@ TEST(Mcap, HoldsAnEmptyRecording) {
   EXPECT_TRUE(tests::sets_of(reader).empty());
 }
 
+TEST(Mcap, IsOpenedByItsSummaryAloneOnlyIfThatIsWhole) {
+  const tests::TemporaryFolder folder;
+  const auto recording = tests::random_recording(4, 5, 1000);
+  auto writer = Writer::create(folder / "a.mcap");
+  ASSERT_TRUE(writer);
+  tests::write_content(*writer, recording);
+  const auto unfinished = Reader::open_finished(folder / "a.mcap");
+  ASSERT_FALSE(unfinished);
+  EXPECT_EQ(unfinished.error().number, 0);
+  EXPECT_EQ(unfinished.error().message,
+            (folder / "a.mcap").string() + ": its summary is missing or damaged");
+  ASSERT_TRUE(writer->finish());
+  auto finished = Reader::open_finished(folder / "a.mcap");
+  ASSERT_TRUE(finished) << finished.error().message;
+  EXPECT_TRUE(finished->is_finished());
+  EXPECT_EQ(tests::sets_of(*finished), recording.sets);
+
+  Bytes damaged = tests::bytes_of(folder / "a.mcap");
+  damaged[damaged.size() - kMagic.size() - kFooterSize - 1] ^= std::byte{1};
+  const tests::MemoryFile file;
+  file.set(damaged);
+  EXPECT_FALSE(Reader::open_finished(file.path()));
+  Reader scanned = tests::opened(file.path());
+  EXPECT_FALSE(scanned.is_finished());
+  EXPECT_EQ(tests::sets_of(scanned), recording.sets);
+  EXPECT_EQ(Reader::open_finished(folder / "missing").error().number, ENOENT);
+}
+
 TEST(Mcap, IsReadWhileItIsWritten) {
   const tests::TemporaryFolder folder;
   const auto recording = tests::random_recording(3, 5, 1000);

@@ -141,6 +141,46 @@ TEST(McapCut, LeavingZerosIsDropped) {
   }
 }
 
+/// Offset of the summary that the footer of a finished file states.
+std::uint64_t summary_of(const Bytes& bytes) {
+  std::uint64_t offset = 0;
+  const auto footer = std::span(bytes).last(kMagic.size() + kFooterSize - kRecordHead);
+  FieldReader fields(footer);
+  EXPECT_TRUE(fields(offset));
+  return offset;
+}
+
+/// A power cut may leave the footer without the summary in front of it, or with a part of it.
+TEST(McapCut, LeavingTheFooterIsCompletedFromTheRecords) {
+  const tests::TemporaryFolder folder;
+  const auto recording = tests::random_recording(8, 20, 500);
+  tests::write_recording(folder / "whole.mcap", recording);
+  const Bytes whole = tests::bytes_of(folder / "whole.mcap");
+  const std::uint64_t summary = summary_of(whole), end = whole.size() - kMagic.size() - kFooterSize;
+  ASSERT_GT(end, summary + 100);
+  const tests::MemoryFile file;
+  for (const std::uint64_t lost : {summary - kDataEndSize, summary, end - 100}) {
+    SCOPED_TRACE(lost);
+    Bytes torn = whole;
+    std::fill(torn.begin() + static_cast<std::ptrdiff_t>(lost),
+              torn.begin() + static_cast<std::ptrdiff_t>(end), std::byte{0});
+    file.set(torn);
+    {
+      Reader reader = tests::opened(file.path());
+      EXPECT_FALSE(reader.is_finished());
+      EXPECT_EQ(tests::sets_of(reader), recording.sets);
+    }
+    const auto completion = complete(file.path());
+    ASSERT_TRUE(completion) << completion.error().message;
+    EXPECT_FALSE(completion->was_finished);
+    Reader reader = tests::opened(file.path());
+    EXPECT_TRUE(reader.is_finished());
+    EXPECT_EQ(tests::sets_of(reader), recording.sets);
+    EXPECT_EQ(reader.summary().attachments.size(), recording.attachments.size());
+    EXPECT_EQ(reader.summary().metadata.size(), recording.metadata.size());
+  }
+}
+
 /// A damaged chunk between good ones stays in the file, but is not listed.
 TEST(Complete, SkipsADamagedChunk) {
   const tests::TemporaryFolder folder;

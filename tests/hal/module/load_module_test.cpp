@@ -70,7 +70,7 @@ TEST(LoadModule, RefusesWhatDoesNotFitAndSaysWhatWould) {
   EXPECT_THAT(refusal("foreign_module"), HasSubstr("was built from other headers"));
   EXPECT_THAT(refusal("fitting_module", "genicam"),
               HasSubstr("is the module of libcamera; install orbwatch-camera-genicam"));
-  EXPECT_THAT(refusal("no_module"), HasSubstr("no_module.so: is no camera module of orbwatch"));
+  EXPECT_THAT(refusal("no_module"), HasSubstr("no_module.so: is not a camera module of orbwatch"));
   EXPECT_THAT(refusal("unresolved_module"),
               AllOf(HasSubstr("orbwatch_function_of_a_library_that_is_missing"),
                     HasSubstr("platform/build-deb --module libcamera")));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
@@ -102,6 +103,53 @@ TEST(CameraRecording, AnUnfinishedFileIsRead) {
   north.write(picture.picture, {2, 2, 4, 3}, kBegin, kBegin, 0);
   file.flush();
   EXPECT_EQ(opened(folder / "event.mcap", "north").index().exposures.size(), 1U);
+}
+
+TEST(CameraRecording, IsOpenedByAKnownIndexUntilTheFileChanges) {
+  std::mt19937 random(370);
+  const TemporaryFolder folder;
+  const RandomPicture picture(random, PixelFormat::Grey, 8, 6, 0);
+  for (const std::uint32_t count : {2U, 1U}) {
+    PictureFile file(folder / (std::to_string(count) + ".mcap"));
+    CameraTopics north(file, "north", {PixelFormat::Grey, {}, 8, 6});
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint64_t time = kBegin + k * kPeriod;
+      north.write(picture.picture, {2, 2, 4, 3}, time, time, k);
+      file.flush();
+    }
+    file.finish();
+  }
+  const auto index =
+      std::make_shared<const CameraIndex>(opened(folder / "2.mcap", "north").index());
+  auto same = CameraRecording::open(folder / "2.mcap", index);
+  ASSERT_TRUE(same) << same.error().message;
+  EXPECT_TRUE(same->part(1));
+  auto changed = CameraRecording::open(folder / "1.mcap", index);
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_TRUE(changed->part(0));
+  const auto refused = changed->part(1);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("image_raw, picture 1: the recording has changed"),
+            std::string::npos)
+      << refused.error().message;
+}
+
+TEST(CameraRecording, IsOpenedByAKnownIndexOnlyIfItIsFinished) {
+  std::mt19937 random(371);
+  const TemporaryFolder folder;
+  const RandomPicture picture(random, PixelFormat::Grey, 8, 6, 0);
+  PictureFile file(folder / "event.mcap");
+  CameraTopics north(file, "north", {PixelFormat::Grey, {}, 8, 6});
+  north.write(picture.picture, {2, 2, 4, 3}, kBegin, kBegin, 0);
+  file.flush();
+  const auto index =
+      std::make_shared<const CameraIndex>(opened(folder / "event.mcap", "north").index());
+  const auto refused = CameraRecording::open(folder / "event.mcap", index);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("its summary is missing"), std::string::npos)
+      << refused.error().message;
+  file.finish();
+  EXPECT_TRUE(CameraRecording::open(folder / "event.mcap", index));
 }
 
 TEST(CameraRecording, ExposuresHaveTheTriggerOfTheirSet) {

@@ -145,15 +145,12 @@ TEST(VividFaults, ADisconnectedDeviceComesBackWithItsControls) {
   set_vivid("disconnect", 1);
   EXPECT_TRUE(run.reports(Fault::Unplugged));
   plug("unbind");
+  EXPECT_TRUE(run.camera().set("Contrast", 66)) << "set when it is back";
   plug("bind");
   EXPECT_TRUE(run.reports(Fault::None));
   const V4l2Device device = open_vivid();
-  auto control = device.next_control(0);
-  while (control && control_variable(control->name) != "brightness") {
-    control = device.next_control(control->id);
-  }
-  ASSERT_TRUE(control);
-  EXPECT_EQ(device.control(*control).value(), 77);
+  EXPECT_EQ(device.control(find_control(device, "Brightness").value()).value(), 77);
+  EXPECT_EQ(device.control(find_control(device, "Contrast").value()).value(), 66);
 }
 
 TEST(VividFaults, AConsumerThatHoldsAllFramesIsNoFaultOfTheCamera) {
