@@ -52,7 +52,7 @@ class WorkProgress {
   /// `share` of the step that is done: 0 to 1. Called on the thread of the work.
   using OnStep = std::function<void(WorkStep step, double share)>;
 
-  /// Work that nobody follows.
+  /// Progress without an observer.
   WorkProgress() = default;
   explicit WorkProgress(OnStep on_step, std::stop_token stop = {})
       : on_step_(std::move(on_step)), stop_(std::move(stop)) {}

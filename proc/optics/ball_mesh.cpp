@@ -100,8 +100,10 @@ class MeshBuilder {
   void predict() {
     constexpr double kStep = 1e-4;  // radians
     mesh_.facing = ball_.facing();
+    // The direction that faces the camera has a pixel; beside it a window may end the picture.
     const auto pixel = [this](const Vec3& direction) {
-      return view_.of_camera_pixel(*ball_.pixel(normalized(direction), 0));
+      const auto shown = ball_.pixel(normalized(direction), 0);
+      return shown ? view_.of_camera_pixel(*shown) : mesh_.centre;
     };
     mesh_.centre = pixel(mesh_.facing);
     const Vec3 aside = std::abs(mesh_.facing.z) < 0.7 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
@@ -182,8 +184,10 @@ class MeshBuilder {
 }  // namespace
 
 BallMesh ball_mesh(const ViewProjection& view) {
+  const BallProjection& ball = *view.ball();
+  if (!ball.pixel(ball.facing(), 0)) return {};
   MeshBuilder builder(view);
-  for (const SceneProxy::Face& face : view.ball()->proxy().faces()) builder.add(face);
+  for (const SceneProxy::Face& face : ball.proxy().faces()) builder.add(face);
   return builder.take();
 }
 

@@ -38,7 +38,7 @@ struct BallMesh {
 
 /// Builds the mesh, exact to 1/32 px except at the blind cone, which begins up to 1/4 degree early.
 /// Triangles lie on the scene's faces, including parts that another face hides. `view`: of kind
-/// Ball.
+/// Ball. Empty: the ball is not seen, as through a window that stands edge-on.
 BallMesh ball_mesh(const ViewProjection& view);
 
 }  // namespace orbwatch::optics

@@ -202,7 +202,7 @@ Result<BallSight> sight_from_outline(const Outline& outline, const Lens& lens,
   const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
   const double deviation = std::max(aperture - *least, *most - aperture);
   if (!(deviation <= 0.05 * aperture) || !(aperture < std::numbers::pi / 2)) {
-    return fail("the outline is no ball's: a ball's limb stands on a circular cone");
+    return fail("the outline is not that of a ball: a ball's limb stands on a circular cone");
   }
   const BallSight sight{axis, 1 / std::sin(aperture)};
   if (!(window.thickness > 0)) return sight;
@@ -224,7 +224,7 @@ Result<Outline> outline_from_sight(const BallSight& sight, const Lens& lens, con
     pixels[i] = *pixel;
   }
   const auto outline = fit_ellipse(pixels);
-  if (!outline) return fail("the ball's limb is no ellipse in the picture");
+  if (!outline) return fail("the ball's limb is not an ellipse in the picture");
   return *outline;
 }
 

@@ -41,7 +41,7 @@ Result<Mat3> checked_rotation(const Mat3& matrix) {
   const double determinant = dot(matrix.row0, cross(matrix.row1, matrix.row2));
   if (!(deviation <= kTolerance) || !(determinant > 0)) {
     return fail(
-        "the matrix is no rotation: its rows must be unit vectors, perpendicular and "
+        "the matrix is not a rotation: its rows must be unit vectors, perpendicular and "
         "right-handed, to 1e-6");
   }
   return matrix;

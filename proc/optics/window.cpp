@@ -16,7 +16,7 @@ Result<> check_window(const Window& window) {
                 " mm; it must be at least 0");
   }
   if (!(window.index >= 1 && window.index <= 5)) {
-    return fail("the window's index of refraction is " + std::to_string(window.index) +
+    return fail("the window's refractive index is " + std::to_string(window.index) +
                 "; it must be 1 to 5");
   }
   return {};

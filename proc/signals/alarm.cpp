@@ -125,8 +125,8 @@ Alarm suppressed(const Alarm& before, bool latching) {
 AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const AlarmInputs& inputs) {
   AlarmMemory next;
   next.measured = std::isfinite(inputs.value);
-  const bool tells = inputs.is_new || !next.measured;
-  next.stepped_at = tells ? inputs.now : memory.stepped_at;
+  const bool is_counted = inputs.is_new || !next.measured;
+  next.stepped_at = is_counted ? inputs.now : memory.stepped_at;
   if (is_suppressed(limits, inputs)) {
     next.alarm = suppressed(memory.alarm, limits.latching);
     return next;
@@ -135,7 +135,7 @@ AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const Ala
   next.low_warning = memory.low_warning;
   next.high_warning = memory.high_warning;
   next.high_alarm = memory.high_alarm;
-  const nanoseconds elapsed = tells ? counted_time(memory, inputs.now) : nanoseconds(0);
+  const nanoseconds elapsed = is_counted ? counted_time(memory, inputs.now) : nanoseconds(0);
   if (limits.loss_delay) {
     next.loss = advanced(memory.loss, next.measured ? Evidence::Ended : Evidence::Holds, elapsed,
                          {*limits.loss_delay, limits.off_delay});

@@ -13,7 +13,7 @@ namespace orbwatch::signals {
 /// kelvin_offset.
 struct RadiometrySettings {
   double kelvin_per_count = 0;           ///< 0: not stated
-  bool says_scale = false;               ///< the camera itself reports kelvin_per_count
+  bool states_scale = false;             ///< the camera itself reports kelvin_per_count
   double wavelength = 10;                ///< um, the camera's effective one
   std::optional<double> emissivity{};    ///< the target's emissivity, (0, 1]; nullopt: 1
   double surroundings = 20;              ///< degC, temperature reflected by the target
@@ -21,11 +21,11 @@ struct RadiometrySettings {
   double ball_temperature = 20;          ///< degC, for the ball's own emission
   double kelvin_offset = 0;              ///< K, at a count of 0
 
-  bool is_radiometric() const { return kelvin_per_count > 0 || says_scale; }
+  bool is_radiometric() const { return kelvin_per_count > 0 || states_scale; }
 };
 
-/// Settings of a camera's table [camera.radiometry]; kelvin_per_count, kelvin_offset and says_scale
-/// are keys of the camera's own table, the rest are the region's.
+/// Settings of a camera's table [camera.radiometry]; kelvin_per_count, kelvin_offset and
+/// states_scale are keys of the camera's own table, the rest are the region's.
 template <class Visitor>
 void visit(Visitor& v, RadiometrySettings& radiometry) {
   v.require(radiometry.is_radiometric(), "wavelength",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+#include <utility>
 
 #include "proc/image/picture.h"
 #include "proc/optics/ball_projection.h"
@@ -119,47 +120,60 @@ Result<std::vector<TargetSight>> sights(const Arrangement& s, double focal) {
   return all;
 }
 
-std::vector<std::string> changes(const Arrangement& s, const Advice& a) {
-  std::vector<std::string> all;
+std::string lens_advice(const Arrangement& s, const Advice& a) {
   const double longer = kGoodFill / a.fill;
   if (a.fill > 1) {
-    all.push_back(text("the ball is larger than the picture: take a lens of %.0f mm or less",
-                       s.focal_length * longer));
-  } else if (a.fill < kPoorFill) {
-    all.push_back(
-        text("the ball fills %.0f %% of the picture's short side: a lens of %.0f mm "
-             "shows %.1f times as much",
-             100 * a.fill, s.focal_length * longer, longer));
+    return text("the ball is larger than the picture: take a lens of %.0f mm or less",
+                s.focal_length * longer);
   }
+  if (a.fill >= kPoorFill) return {};
+  return text(
+      "the ball fills %.0f %% of the picture's short side: a lens of %.0f mm "
+      "shows %.1f times as much",
+      100 * a.fill, s.focal_length * longer, longer);
+}
+
+std::string place_advice(const Arrangement& s, const Advice& a) {
+  const auto [best, worst] = std::ranges::minmax_element(a.sights, {}, &TargetSight::smallest);
+  const bool is_one_sided = s.smallest && worst != a.sights.end() &&
+                            worst->smallest > *s.smallest && best->smallest <= *s.smallest;
+  if (!is_one_sided) return {};
+  return text(
+      "%.2f mm can be measured where the camera sees it well only: place the "
+      "camera on the target's side of the ball",
+      *s.smallest);
+}
+
+/// Advice on the number of pixels with the lens of lens_advice().
+std::string pixel_advice(const Arrangement& s, const Advice& a) {
   const auto worst = std::ranges::max_element(a.sights, {}, &TargetSight::smallest);
-  if (s.smallest && worst != a.sights.end() && worst->smallest > *s.smallest) {
-    const double factor = worst->smallest / *s.smallest;
-    const auto best = std::ranges::min_element(a.sights, {}, &TargetSight::smallest);
-    if (best->smallest <= *s.smallest) {
-      all.push_back(
-          text("%.2f mm can be measured where the camera sees it well only: place the "
-               "camera on the target's side of the ball",
-               *s.smallest));
-    }
-    // The pixel count assumes the lens advised above.
-    const double sensor = a.fill < kPoorFill || a.fill > 1 ? factor / longer : factor;
-    if (sensor > 1) {
-      all.push_back(text("%.2f mm in every direction needs %.1f times as many pixels across",
-                         *s.smallest, sensor));
-      const double nearer = s.target_distance / sensor;
-      if (nearer > s.ball_diameter) {
-        all.back() += text(", or the ball %.0f mm from the target", nearer);
-      }
-    }
-  }
+  if (!s.smallest || worst == a.sights.end()) return {};
+  const bool has_other_lens = a.fill < kPoorFill || a.fill > 1;
+  const double factor = worst->smallest / *s.smallest * (has_other_lens ? a.fill / kGoodFill : 1);
+  if (!(worst->smallest > *s.smallest && factor > 1)) return {};
+  std::string advice = text("%.2f mm in every direction needs %.1f times as many pixels across",
+                            *s.smallest, factor);
+  const double nearer = s.target_distance / factor;
+  if (nearer > s.ball_diameter) advice += text(", or the ball %.0f mm from the target", nearer);
+  return advice;
+}
+
+std::string aperture_advice(const Arrangement&, const Advice& a) {
   if (a.f_number > a.diffraction_f_number) {
-    all.push_back(
-        text("f/%.1f is needed for the depth of field, but diffraction blurs from f/%.1f "
-             "on: take a smaller ball, more distance or larger pixels",
-             a.f_number, a.diffraction_f_number));
-  } else if (a.f_number > kDarkFNumber) {
-    all.push_back(text(
-        "f/%.0f lets little light through: light the machine, or take a smaller ball", a.f_number));
+    return text(
+        "f/%.1f is needed for the depth of field, but diffraction blurs from f/%.1f "
+        "on: take a smaller ball, more distance or larger pixels",
+        a.f_number, a.diffraction_f_number);
+  }
+  if (!(a.f_number > kDarkFNumber)) return {};
+  return text("f/%.0f lets little light through: light the machine, or take a smaller ball",
+              a.f_number);
+}
+
+std::vector<std::string> changes(const Arrangement& s, const Advice& a) {
+  std::vector<std::string> all;
+  for (const auto& advise_on : {lens_advice, place_advice, pixel_advice, aperture_advice}) {
+    if (std::string advice = advise_on(s, a); !advice.empty()) all.push_back(std::move(advice));
   }
   return all;
 }

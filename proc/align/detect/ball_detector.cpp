@@ -38,11 +38,12 @@ bool has_rival(const std::vector<FoundLimb>& limbs) {
 
 /// Reason to doubt the best limb, for an operator.
 std::string doubt(const LimbEvidence& evidence, bool rival) {
-  if (rival) return "two places look nearly alike; hide what is no ball, or cut the picture";
+  if (rival) return "two places look nearly alike; hide what is not the ball, or cut the picture";
   if (evidence.radius < kLeastRadius) return "it is small; a ball needs a larger picture";
   if (evidence.near_drop < 0.25) return "what is inside is hardly compressed towards the limb";
   if (evidence.likelihood < kLeastLikelihood) return "it does not end as a ball does: a dome?";
-  if (evidence.contour < 0.6) return "its limb is no clear edge: blurred, or much is hidden";
+  if (evidence.contour < 0.6)
+    return "its limb does not have a clear edge: blurred, or much is hidden";
   return "too little of the picture tells whether it is a ball";
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "proc/align/drift/fault.h"
+#include "proc/align/drift/reference_picture.h"
 
 namespace orbwatch::align {
 namespace {
@@ -37,14 +38,7 @@ bool is_trusted(const Consensus& ball, double share) {
          ball.octants >= kFewestOctants;
 }
 
-/// The outline in pixels that are `scale` times larger.
-Outline reduced(const Outline& o, int scale) {
-  return {{(o.centre.u + 0.5) / scale - 0.5, (o.centre.v + 0.5) / scale - 0.5},
-          o.rx / scale,
-          o.ry / scale,
-          o.angle};
-}
-
+/// The fault seen at the ball's place alone: kDark is little contrast, which a plain wall has, too.
 std::string_view fault_of(const Sighting& sighting) {
   if (sighting.expected < kFewestAgreeing) return fault::kOutside;
   if (2 * sighting.saturated > sighting.expected) return fault::kOverexposed;
@@ -101,20 +95,20 @@ std::optional<PictureMotion> BallTracker::find(const Picture& picture) {
   reason_ = {};
   until_search_ = std::max(0, until_search_ - 1);
   const Consensus here = at(picture, last_);
-  if (is_trusted(here, kShare)) {
-    last_ = here.motion;
-    return magnified(last_, scale_);
-  }
-  reason_ = fault_of(sighting_);
-  if (reason_ == fault::kDark || reason_ == fault::kOverexposed || until_search_ > 0)
-    return std::nullopt;
-  const auto found = search(picture);
-  if (!found) {
+  if (is_trusted(here, kShare)) return continued(here.motion);
+  const std::string_view reason = fault_of(sighting_);
+  if (until_search_ == 0) {
+    // The ball's place may be without contrast because the ball is not there any more.
+    if (const auto found = search(picture)) return continued(*found);
     until_search_ = kSearchEvery;
-    return std::nullopt;
   }
-  reason_ = {};
-  last_ = *found;
+  reason_ = reason == fault::kDark && !was_dark_ ? fault::kElsewhere : reason;
+  return std::nullopt;
+}
+
+PictureMotion BallTracker::continued(const PictureMotion& motion) {
+  until_search_ = 0;
+  last_ = motion;
   return magnified(last_, scale_);
 }
 
@@ -137,6 +131,7 @@ std::optional<double> BallTracker::distance_from(const Picture& picture,
 std::optional<PictureMotion> BallTracker::search(const Picture& picture) {
   if (const Consensus back = at(picture, {}); is_trusted(back, kShareFound)) return back.motion;
   std::vector<cv::Mat> pyramid{smoothed_luminance(picture, scale_)};
+  was_dark_ = is_too_dark(cv::mean(pyramid.front())[0], picture.format);
   while (pyramid.size() < scales_.size()) pyramid.push_back(halved(pyramid.back()));
   const Consensus found = at(picture, coarse_motion(pyramid, saturation(picture.format)));
   return is_trusted(found, kShareFound) ? std::optional(found.motion) : std::nullopt;

@@ -16,7 +16,8 @@ namespace orbwatch::align {
 /// last place.
 class BallTracker {
  public:
-  /// Frames between searches of the whole picture for a ball that has left its place.
+  /// Frames between searches of the whole picture for a ball that is not at its place: it has left
+  /// it, or the light is out.
   static constexpr int kSearchEvery = 30;
 
   /// The scale for a ball: pixels of the picture per pixel of the finest scale.
@@ -48,6 +49,8 @@ class BallTracker {
   ReadWindow reading(const Picture& picture);
   Consensus at(const Picture& picture, const PictureMotion& guess);
   std::optional<PictureMotion> search(const Picture& picture);
+  /// The motion in px of the picture; the next frame begins there, and may search at once.
+  PictureMotion continued(const PictureMotion& motion);
   PictureMotion coarse_motion(const std::vector<cv::Mat>& pyramid, float saturated);
 
   int scale_;                           ///< pixels of the picture per pixel of the finest scale
@@ -57,8 +60,9 @@ class BallTracker {
   WindowReader reader_;
   Sighting sighting_;
   std::vector<double> distances_;
-  PictureMotion last_;  ///< at the finest scale
-  int until_search_ = 0;
+  PictureMotion last_;     ///< at the finest scale
+  int until_search_ = 0;   ///< frames
+  bool was_dark_ = false;  ///< the whole picture that was searched last
   std::string_view reason_;
 };
 

@@ -199,21 +199,26 @@ class DriftMonitor::Impl {
     return distance && view_error_.small({*distance, 0, 0, 0}) <= alike;
   }
 
-  /// The ball's mean place counts as its origin until it has settled or jumped.
+  /// Distance of a jump from the mean, degrees.
+  double jump() const {
+    return std::max({kJump * limits_.warning, kJumpSpreads * statistics_.spread(),
+                     view_error_.small({kJumpPixels, 0, 0, 0})});
+  }
+
+  /// The ball's mean place counts as its origin until it has settled or jumped. Few pictures per
+  /// second need longer: an origin without a spread would count as exact.
   void add(const PictureMotion& motion, Time time) {
-    const double jump = std::max({kJump * limits_.warning, kJumpSpreads * statistics_.spread(),
-                                  view_error_.small({kJumpPixels, 0, 0, 0})});
-    if (!statistics_.empty() && error_of(motion - statistics_.mean()) > jump) {
+    if (!statistics_.empty() && error_of(motion - statistics_.mean()) > jump()) {
       statistics_.restart();
       is_settling_ = false;
     }
     if (!first_time_) first_time_ = time;
-    if (time - *first_time_ > kSettling) is_settling_ = false;
+    if (time - *first_time_ > kSettling && statistics_.knows_spread()) is_settling_ = false;
     statistics_.add(time, motion);
     if (!is_settling_) return;
     ++settled_;
     origin_ = origin_ + scaled(motion - origin_, 1.0 / settled_);
-    origin_sigma_ = statistics_.sigma_of(settled_);
+    if (statistics_.knows_spread()) origin_sigma_ = statistics_.sigma_of(settled_);
   }
 
   /// Standard deviation of the motion; a single reference picture is as far from the mean as any.
@@ -228,9 +233,11 @@ class DriftMonitor::Impl {
     return is_small ? view_error_.small(motion) : view_error_.exact(motion);
   }
 
-  /// Raised when the error is above a limit with certainty, lowered when it is below.
+  /// Raised when the error is above a limit with certainty, lowered when it is below. While the
+  /// spread is unknown only a jump is certain: all else may be vibration.
   DriftLevel level() const {
-    const double sure = state_.direction_error - kSure * state_.direction_sigma;
+    const bool is_certain = statistics_.knows_spread() || state_.direction_error > jump();
+    const double sure = is_certain ? state_.direction_error - kSure * state_.direction_sigma : 0;
     const auto exceeds = [&](double limit, DriftLevel raised) {
       return sure > limit || (last_level_ >= raised && state_.direction_error > limit);
     };
@@ -280,9 +287,11 @@ class DriftMonitor::Impl {
   std::optional<Time> first_time_;
   Time measured_at_{};
   bool is_settling_ = true;
-  int settled_ = 0;                     ///< frames
-  PictureMotion origin_;                ///< against the reference picture
-  std::optional<double> origin_sigma_;  ///< degrees; none if a single picture is the reference
+  int settled_ = 0;       ///< frames
+  PictureMotion origin_;  ///< against the reference picture
+  /// Standard deviation of the origin, degrees; none if a single picture is the reference, or a
+  /// jump ended the learning before the spread was known.
+  std::optional<double> origin_sigma_;
   DriftLevel last_level_ = DriftLevel::Good;  ///< the latest one measured
   std::optional<double> share_;
   DriftState state_;

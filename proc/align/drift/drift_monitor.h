@@ -54,7 +54,8 @@ struct DriftState {
   /// measured.
   PictureMotion motion;
   double direction_error = 0;  ///< degrees rms, see ViewError
-  double direction_sigma = 0;  ///< standard deviation of direction_error, degrees
+  double direction_sigma = 0;  ///< standard deviation of direction_error, degrees; too small in the
+                               ///< first frames after refer_to(), whose spread is not known yet
   DriftCause cause = DriftCause::Unknown;
   optics::Outline outline;           ///< corrected, px
   std::optional<optics::Mat3> turn;  ///< rotation of a turned camera with a known lens: R_corrected
@@ -70,13 +71,13 @@ struct DriftZero {
 /// Watches whether a camera or the ball has moved against the stored alignment.
 ///
 /// The reference is the content of the first five usable pictures and the ball's mean place in the
-/// first 2.4 s, or the picture on which the alignment was made. A picture within 90 ms of the one
-/// measured last is only glanced at, and the state stays, while the ball rests: its last motions
-/// and a fifth of its patches are within half the warning limit of their mean, and the error of
-/// directions is below half of it. observe() costs some
-/// tenths of a millisecond whatever the picture's size, a glance a fifth of that; tens of
-/// milliseconds for the first pictures, a few for one in which the ball has jumped, and for one in
-/// 30 while the ball is not where it was. Not reentrant: one thread at a time.
+/// first 2.4 s, eight pictures at least, or the picture on which the alignment was made. A picture
+/// within 90 ms of the one measured last is only glanced at, and the state stays, while the ball
+/// rests: its last motions and a fifth of its patches are within half the warning limit of their
+/// mean, and the error of directions is below half of it. observe() costs some tenths of a
+/// millisecond whatever the picture's size, a glance a fifth of that; tens of milliseconds for the
+/// first pictures, a few for one in which the ball has jumped, and for one in 30 while the ball is
+/// not where it was or not visible. Not reentrant: one thread at a time.
 class DriftMonitor {
  public:
   using Time = std::chrono::nanoseconds;

@@ -34,6 +34,7 @@ void MotionStatistics::add(Time time, const PictureMotion& motion) {
     squares += apart * apart;
   }
   spread_ = std::sqrt(squares / static_cast<double>(motions_.size()));
+  knows_spread_ = true;
 }
 
 double MotionStatistics::sigma_of(double frames) const {

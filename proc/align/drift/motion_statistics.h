@@ -31,6 +31,8 @@ class MotionStatistics {
   bool empty() const { return motions_.empty(); }
   /// True: there are enough motions for a mean and a spread.
   bool is_complete() const { return motions_.size() >= kFewest; }
+  /// False until they were complete once: spread() and sigma() are 0, and mean nothing.
+  bool knows_spread() const { return knows_spread_; }
 
   /// Mean of each component, without its lowest and highest fifth.
   PictureMotion mean() const { return mean_; }
@@ -55,6 +57,7 @@ class MotionStatistics {
   std::vector<double> sorted_;
   PictureMotion mean_;
   double spread_ = 0;
+  bool knows_spread_ = false;
 };
 
 }  // namespace orbwatch::align

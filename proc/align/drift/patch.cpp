@@ -23,6 +23,58 @@ constexpr double kGainRange = 8;
 /// Smoothed pixels per independent one.
 constexpr double kCorrelated = 4;
 
+constexpr int kPatchSide = Patch::kSide;
+constexpr std::size_t kPatchPixels = Patch::kPixels;
+using Pixels = std::array<float, kPatchPixels>;
+/// Sums of columns, so that vector instructions compute them.
+using ColumnSums = std::array<float, kPatchSide>;
+
+double total(const ColumnSums& columns) {
+  double sum = 0;
+  for (const float column : columns) sum += column;
+  return sum;
+}
+
+/// Interpolates the window at a shift. False: the shift leaves the window.
+bool sample(const PatchWindow& window, const Vec2& shift, Pixels& seen) {
+  const double u = shift.u + PatchWindow::kReach, v = shift.v + PatchWindow::kReach;
+  if (!(u >= 0 && v >= 0 && u < 2 * PatchWindow::kReach && v < 2 * PatchWindow::kReach)) {
+    return false;
+  }
+  const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
+  const auto fu = static_cast<float>(u - u0), fv = static_cast<float>(v - v0);
+  const float a = (1 - fu) * (1 - fv), b = fu * (1 - fv), c = (1 - fu) * fv, d = fu * fv;
+  for (int y = 0; y < kPatchSide; ++y) {
+    const float* const top = window.row(v0 + y) + u0;
+    const float* const bottom = top + PatchWindow::kSide;
+    float* const out = seen.data() + y * kPatchSide;
+    for (int x = 0; x < kPatchSide; ++x) {
+      out[x] = a * top[x] + b * top[x + 1] + c * bottom[x] + d * bottom[x + 1];
+    }
+  }
+  return true;
+}
+
+double product(const Pixels& basis, const Pixels& seen) {
+  ColumnSums sums{};
+  for (std::size_t n = 0; n < kPatchPixels; n += kPatchSide) {
+    for (std::size_t x = 0; x < kPatchSide; ++x) sums[x] += basis[n + x] * seen[n + x];
+  }
+  return total(sums);
+}
+
+/// Sum of the squared differences from the mean within the mask.
+double variation(const Pixels& seen, const Pixels& mask, float mean) {
+  ColumnSums sums{};
+  for (std::size_t n = 0; n < kPatchPixels; n += kPatchSide) {
+    for (std::size_t x = 0; x < kPatchSide; ++x) {
+      const float offset = mask[n + x] * (seen[n + x] - mean);
+      sums[x] += offset * offset;
+    }
+  }
+  return total(sums);
+}
+
 }  // namespace
 
 std::optional<Patch> Patch::make(const cv::Mat& picture, cv::Point corner, const Mask& mask,
@@ -69,58 +121,36 @@ std::optional<Patch> Patch::make(const cv::Mat& picture, cv::Point corner, const
 
 std::optional<PatchShift> Patch::find(const PatchWindow& window, const Vec2& start) const {
   Vec2 shift = start;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const double u = shift.u + PatchWindow::kReach, v = shift.v + PatchWindow::kReach;
-    if (!(u >= 0 && v >= 0 && u < 2 * PatchWindow::kReach && v < 2 * PatchWindow::kReach)) {
-      return std::nullopt;
-    }
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    const auto fu = static_cast<float>(u - u0), fv = static_cast<float>(v - v0);
-    const float a = (1 - fu) * (1 - fv), b = fu * (1 - fv), c = (1 - fu) * fv, d = fu * fv;
-    std::array<float, kPixels> seen;
-    for (int y = 0; y < kSide; ++y) {
-      const float* const top = window.row(v0 + y) + u0;
-      const float* const bottom = top + PatchWindow::kSide;
-      float* const out = seen.data() + y * kSide;
-      for (int x = 0; x < kSide; ++x) {
-        out[x] = a * top[x] + b * top[x + 1] + c * bottom[x] + d * bottom[x + 1];
-      }
-    }
+  Pixels seen;
+  for (int iteration = 1; iteration <= kIterations; ++iteration) {
+    if (!sample(window, shift, seen)) return std::nullopt;
     cv::Vec4d right;
-    std::array<float, kSide> square{}, total{};
-    for (int k = 0; k < kBases; ++k) {
-      std::array<float, kSide> sums{};
-      const auto& basis = bases_[static_cast<std::size_t>(k)];
-      for (std::size_t n = 0; n < kPixels; n += kSide) {
-        for (std::size_t x = 0; x < kSide; ++x) sums[x] += basis[n + x] * seen[n + x];
-      }
-      for (const float s : sums) right[k] += s;
-    }
-    const auto mean = static_cast<float>(right[3] / pixels_);
-    for (std::size_t n = 0; n < kPixels; n += kSide) {
-      for (std::size_t x = 0; x < kSide; ++x) {
-        const float offset = mask_[n + x] * (seen[n + x] - mean);
-        square[x] += offset * offset;
-        total[x] += offset;
-      }
-    }
-    double variation = 0;
-    for (const float s : square) variation += s;
+    for (int k = 0; k < kBases; ++k) right[k] = product(bases_[static_cast<std::size_t>(k)], seen);
     const cv::Vec4d found = inverse_ * right;
     const double gain = found[2];
     if (!(gain > 1 / kGainRange && gain < kGainRange)) return std::nullopt;
     const Vec2 step{found[0] / gain, found[1] / gain};
     shift = {shift.u - step.u, shift.v - step.v};
-    if (std::hypot(step.u, step.v) > kStill && iteration + 1 < kIterations) continue;
-    // Squares that the bases do not explain; without the offset's share, for precision.
-    const double explained = found[0] * right[0] + found[1] * right[1] + found[2] * right[2] +
-                             (found[3] - right[3] / pixels_) * right[3];
-    const double left = std::max(variation - explained, 1e-6 * variation);
-    if (!(variation > 0 && left < (1 - kExplained) * variation)) return std::nullopt;
-    const double variance = left / pixels_ * kCorrelated;
-    return PatchShift{shift, slopes_ * (gain * gain / variance)};
+    if (std::hypot(step.u, step.v) > kStill && iteration < kIterations) continue;
+    const auto variance = residual_variance(seen, right, found);
+    if (!variance) return std::nullopt;
+    return PatchShift{shift, slopes_ * (gain * gain / *variance)};
   }
   return std::nullopt;
+}
+
+/// Variance of the brightness `seen` that the bases with the factors `found` leave; nullopt: the
+/// patch does not explain enough of it.
+std::optional<double> Patch::residual_variance(const Pixels& seen, const cv::Vec4d& right,
+                                               const cv::Vec4d& found) const {
+  const double mean = right[3] / pixels_;
+  const double all = variation(seen, mask_, static_cast<float>(mean));
+  // Squares that the bases do not explain; without the offset's share, for precision.
+  const double explained = found[0] * right[0] + found[1] * right[1] + found[2] * right[2] +
+                           (found[3] - mean) * right[3];
+  const double left = std::max(all - explained, 1e-6 * all);
+  if (!(all > 0 && left < (1 - kExplained) * all)) return std::nullopt;
+  return left / pixels_ * kCorrelated;
 }
 
 }  // namespace orbwatch::align

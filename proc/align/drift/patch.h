@@ -56,6 +56,9 @@ class Patch {
 
   Patch() = default;
 
+  std::optional<double> residual_variance(const std::array<float, kPixels>& seen,
+                                          const cv::Vec4d& right, const cv::Vec4d& found) const;
+
   std::array<std::array<float, kPixels>, kBases> bases_{};  ///< 0 outside of the mask
   cv::Matx44d inverse_;  ///< inverse of the normal matrix, held along edges
   cv::Matx22d slopes_;   ///< information on the shift alone in the normal matrix

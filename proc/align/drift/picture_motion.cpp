@@ -8,6 +8,14 @@ namespace orbwatch::align {
 using optics::Outline;
 using optics::Vec2;
 
+Outline reduced(const Outline& outline, int scale) {
+  const auto smaller = [&](double at) { return (at + 0.5) / scale - 0.5; };
+  return {{smaller(outline.centre.u), smaller(outline.centre.v)},
+          outline.rx / scale,
+          outline.ry / scale,
+          outline.angle};
+}
+
 Vec2 before(const PictureMotion& motion, const Outline& outline, const Vec2& pixel) {
   const Vec2 arm{pixel.u - outline.centre.u - motion.u, pixel.v - outline.centre.v - motion.v};
   const double a = 1 + motion.growth, b = motion.roll, square = a * a + b * b;

@@ -36,6 +36,9 @@ inline PictureMotion magnified(const PictureMotion& m, double factor) {
   return {m.u * factor, m.v * factor, m.growth, m.roll};
 }
 
+/// The outline in pixels that are `scale` times larger.
+optics::Outline reduced(const optics::Outline& outline, int scale);
+
 /// Place of `pixel` before a motion of a picture with that outline.
 optics::Vec2 before(const PictureMotion& motion, const optics::Outline& outline,
                     const optics::Vec2& pixel);

@@ -6,12 +6,47 @@
 
 #include "proc/align/drift/fault.h"
 #include "proc/align/drift/patch_window.h"
+#include "proc/align/drift/picture_motion.h"
+#include "proc/align/limb_distance.h"
 
 namespace orbwatch::align {
 namespace {
 
-/// Share of the range below which a picture's mean is too dark.
+using optics::Outline;
+
+/// Share of the range below which a mean brightness is too dark.
 constexpr double kDarkest = 0.02;
+
+/// Brightness of the pixels within a limb.
+struct BrightnessWithin {
+  double pixels = 0;
+  double saturated = 0;  ///< number of pixels
+  double sum = 0;
+};
+
+/// The part of a picture that contains the limb.
+cv::Rect part_around(const Outline& limb, const cv::Size& picture) {
+  const double reach = std::max(limb.rx, limb.ry);
+  const cv::Point low(cvFloor(limb.centre.u - reach), cvFloor(limb.centre.v - reach));
+  const cv::Point high(cvCeil(limb.centre.u + reach) + 1, cvCeil(limb.centre.v + reach) + 1);
+  return cv::Rect(low, high) & cv::Rect({0, 0}, picture);
+}
+
+BrightnessWithin brightness_within(const Outline& limb, const cv::Mat& luminance, float saturated) {
+  const LimbDistance distance(limb);
+  const cv::Rect part = part_around(limb, luminance.size());
+  BrightnessWithin within;
+  for (int v = part.y; v < part.y + part.height; ++v) {
+    const float* const row = luminance.ptr<float>(v);
+    for (int u = part.x; u < part.x + part.width; ++u) {
+      if (distance.squared({u - limb.centre.u, v - limb.centre.v}) > 1) continue;
+      ++within.pixels;
+      within.saturated += row[u] >= saturated ? 1 : 0;
+      within.sum += static_cast<double>(row[u]);
+    }
+  }
+  return within;
+}
 
 }  // namespace
 
@@ -34,17 +69,19 @@ cv::Mat ReferencePicture::median() const {
   return sorted[sorted.size() / 2];
 }
 
-std::string_view exposure_fault(const Picture& picture, const optics::Outline& outline) {
+bool is_too_dark(double brightness, PixelFormat format) {
+  return format != PixelFormat::Y16 && brightness < kDarkest * saturation(format);
+}
+
+std::string_view exposure_fault(const Picture& picture, const Outline& outline) {
   constexpr double kRadius = 200;  // px: enough to judge
   const int half = static_cast<int>((outline.rx + outline.ry) / 4 / kRadius);
   const int scale = std::max(1, 2 * half);
-  const cv::Mat luminance = smoothed_luminance(picture, scale);
-  const double range = saturation(picture.format);
-  const double bright = cv::countNonZero(luminance >= range);
-  if (2 * bright > static_cast<double>(luminance.total())) return fault::kOverexposed;
-  const bool is_light = picture.format != PixelFormat::Y16;  // Y16 may be temperatures
-  const bool is_dark = is_light && cv::mean(luminance)[0] < kDarkest * range;
-  return is_dark ? fault::kDark : std::string_view{};
+  const BrightnessWithin ball = brightness_within(
+      reduced(outline, scale), smoothed_luminance(picture, scale), saturation(picture.format));
+  if (ball.pixels == 0) return fault::kOutside;
+  if (2 * ball.saturated > ball.pixels) return fault::kOverexposed;
+  return is_too_dark(ball.sum / ball.pixels, picture.format) ? fault::kDark : std::string_view{};
 }
 
 }  // namespace orbwatch::align

@@ -29,8 +29,12 @@ class ReferencePicture {
   std::vector<cv::Mat> pictures_;
 };
 
-/// Reason why a picture cannot be a reference whatever its texture; empty if it can. Static text
-/// for an operator. Reentrant.
+/// True if a picture of that mean brightness is too dark; never for Y16, which may be temperatures.
+/// Reentrant.
+bool is_too_dark(double brightness, PixelFormat format);
+
+/// Reason why the ball in a picture cannot be a reference whatever its texture; empty if it can.
+/// Only pixels within the limb count. Static text for an operator. Reentrant.
 std::string_view exposure_fault(const Picture& picture, const optics::Outline& outline);
 
 }  // namespace orbwatch::align

@@ -80,6 +80,13 @@ Result<BallProjection> turned(const SoughtCamera& sought, const Mat3& rotation,
   return optics::ball_projection(sought.rig, camera);
 }
 
+Result<BallProjection> in_own_frame(const SoughtCamera& sought) {
+  optics::RigCamera camera = sought.camera;
+  camera.registration = Mat3{};
+  camera.window.reset();
+  return optics::ball_projection(sought.rig, camera);
+}
+
 double overlap(const BallProjection& a, int a_width, int a_height, const BallProjection& b,
                int b_width, int b_height) {
   constexpr int kDirections = 2000;

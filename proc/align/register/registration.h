@@ -66,6 +66,11 @@ optics::Mat3 registration_of(const optics::Mat3& pose_rotation);
 Result<optics::BallProjection> turned(const SoughtCamera& sought, const optics::Mat3& rotation,
                                       const optics::Outline& outline);
 
+/// The sought camera's projection by its outline alone, in the camera's own frame: where a search
+/// starts that knows no rotation. Without its window, whose normal is of the machine frame and thus
+/// unknown in the camera's; the turned() camera has it. Reentrant.
+Result<optics::BallProjection> in_own_frame(const SoughtCamera& sought);
+
 /// The share of all directions that both cameras show within their pictures. Reentrant.
 double overlap(const optics::BallProjection& a, int a_width, int a_height,
                const optics::BallProjection& b, int b_width, int b_height);

@@ -108,6 +108,27 @@ INSTANTIATE_TEST_SUITE_P(Rooms, BallMeshOf,
                                                           Scene::Room::Plane, Scene::Room::Box),
                                           testing::Bool()));
 
+TEST(BallMesh, BehindATiltedWindowIsFiniteOrEmpty) {
+  std::mt19937 random(5);
+  CalibratedCamera camera = random_camera(random, 9, 0);
+  const Vec3 towards = normalized(camera.pose.position - tests::kBall.centre);
+  const Vec3 along_the_glass = normalized(cross(towards, {0.3, 0.2, 1}));
+  int drawn = 0, empty = 0;
+  for (double tilt = 0; tilt < 0.3; tilt += 0.005) {
+    camera.window = Window{along_the_glass + towards * tilt, 20};
+    const auto ball = BallProjection::make(BallModel::Kind::Exact, camera, tests::kBall,
+                                           scene_around_ball(Scene::Room::Box, false));
+    ASSERT_TRUE(ball) << ball.error().message;
+    const auto view = ViewProjection::make({ViewKind::Ball, {}, {}, {}, 200, 180}, *ball);
+    if (!view) continue;  // nothing of its limb is shown
+    const BallMesh mesh = ball_mesh(*view);
+    EXPECT_TRUE(std::isfinite(mesh.centre.u + norm(mesh.u) + norm(mesh.v))) << tilt;
+    ++(mesh.nodes.empty() ? empty : drawn);
+  }
+  EXPECT_GT(empty, 0);
+  EXPECT_GT(drawn, 0);
+}
+
 TEST(BallMesh, NodesHaveTheResolutionThere) {
   std::mt19937 random(3);
   const auto ball = BallProjection::make(BallModel::Kind::Exact, random_camera(random, 9, 0),

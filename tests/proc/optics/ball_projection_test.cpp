@@ -373,7 +373,7 @@ TEST(BallProjection, RefusesImpossibleCameras) {
   EXPECT_THAT(reason(camera), testing::HasSubstr("position"));
   camera = good;
   camera.pose.rotation.row0 = -camera.pose.rotation.row0;
-  EXPECT_THAT(reason(camera), testing::HasSubstr("no rotation"));
+  EXPECT_THAT(reason(camera), testing::HasSubstr("not a rotation"));
   camera.pose.rotation.row2 = -camera.pose.rotation.row2;  // looks away from the ball
   EXPECT_THAT(reason(camera), testing::HasSubstr("looks another way"));
   camera = good;

@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "camera A: the window"},
         Refusal{"MirroredPose",
                 [](Rig&, RigCamera& c) { c.pose->rotation.row0 = -c.pose->rotation.row0; },
-                "no rotation"},
+                "not a rotation"},
         Refusal{"WithinTheBall", [](Rig& r, RigCamera& c) { c.pose->position = r.ball.centre; },
                 "camera A: "},
         Refusal{"LooksAway",
@@ -204,14 +204,14 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Rig&, RigCamera& c) {
                   c.registration.row0 = {2, 0, 0};
                 },
-                "no rotation", false},
+                "not a rotation", false},
         Refusal{"NoRotationButIntrinsics",
                 [](Rig&, RigCamera& c) {
                   c.intrinsics = kIntrinsics;
                   c.distance.reset();
                   c.registration.row0 = {2, 0, 0};
                 },
-                "no rotation", false},
+                "not a rotation", false},
         Refusal{"OutsideOfThePicture", [](Rig&, RigCamera& c) { c.outline->centre.u = 1600; },
                 "outside of the picture", false},
         Refusal{"NoEllipse", [](Rig&, RigCamera& c) { c.outline->rx = 0; }, "radius", false},
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
                   c.distance.reset();
                   c.outline->rx = 200;
                 },
-                "no ball's", false}),
+                "not that of a ball", false}),
     [](const auto& refusal) { return refusal.param.name; });
 
 }  // namespace

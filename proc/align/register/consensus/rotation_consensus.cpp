@@ -30,11 +30,7 @@ class ConsensusSearch {
     for (int trial = 0; trial < trials(); ++trial) {
       const std::array chosen{any(random_), any(random_)};
       const auto rotation = sightings_.hypothesis(chosen);
-      if (!rotation) return tl::unexpected(rotation.error());
-      if (!*rotation) continue;
-      const auto inliers = agreeing(**rotation, kAgreement);
-      if (!inliers) return tl::unexpected(inliers.error());
-      note({**rotation, inliers->size()});
+      if (rotation) note({*rotation, agreeing(*rotation, kAgreement).size()});
     }
     return decided();
   }
@@ -54,17 +50,16 @@ class ConsensusSearch {
                       sightings_.most_trials());
   }
 
-  Result<std::vector<std::size_t>> agreeing(const Mat3& rotation, double within) const {
-    return sightings_.pairs(rotation).map([&](const auto& pairs) {
-      std::vector<std::size_t> inliers;
-      const double cosine = std::cos(within);
-      for (std::size_t n = 0; n < pairs.size(); ++n) {
-        if (pairs[n] && dot(rotation * pairs[n]->camera, pairs[n]->reference) > cosine) {
-          inliers.push_back(n);
-        }
+  std::vector<std::size_t> agreeing(const Mat3& rotation, double within) const {
+    const auto pairs = sightings_.pairs(rotation);
+    std::vector<std::size_t> inliers;
+    const double cosine = std::cos(within);
+    for (std::size_t n = 0; n < pairs.size(); ++n) {
+      if (pairs[n] && dot(rotation * pairs[n]->camera, pairs[n]->reference) > cosine) {
+        inliers.push_back(n);
       }
-      return inliers;
-    });
+    }
+    return inliers;
   }
 
   static bool is_better(const Found& a, const Found& b) { return a.inliers > b.inliers; }
@@ -85,13 +80,9 @@ class ConsensusSearch {
   }
 
   /// Fits a rotation to all matches that agree with it.
-  Result<Mat3> fitted(Mat3 rotation) const {
+  Mat3 fitted(Mat3 rotation) const {
     for (int round = 0; round < kFitsOfEach; ++round) {
-      const auto inliers = agreeing(rotation, kAgreement);
-      if (!inliers) return tl::unexpected(inliers.error());
-      const auto better = sightings_.fitted(rotation, *inliers);
-      if (!better) return better;
-      rotation = *better;
+      rotation = sightings_.fitted(rotation, agreeing(rotation, kAgreement));
     }
     return rotation;
   }
@@ -101,25 +92,21 @@ class ConsensusSearch {
     if (found_.empty()) return fail("no rotation agrees with any two features");
     std::vector<Found> fits;
     for (const Found& one : found_) {
-      const auto rotation = fitted(one.rotation);
-      if (!rotation) return tl::unexpected(rotation.error());
-      const auto inliers = agreeing(*rotation, sightings_.exactness());
-      if (!inliers) return tl::unexpected(inliers.error());
-      fits.push_back({*rotation, inliers->size()});
+      const Mat3 rotation = fitted(one.rotation);
+      fits.push_back({rotation, agreeing(rotation, sightings_.exactness()).size()});
     }
     std::ranges::stable_sort(fits, is_better);
     const Found& best = fits.front();
     const auto rival = std::ranges::find_if(fits, [&](const Found& other) {
       return angle_between(other.rotation, best.rotation) > kDifferent;
     });
-    const auto inliers = agreeing(best.rotation, kAgreement);
-    if (!inliers) return tl::unexpected(inliers.error());
+    const std::vector<std::size_t> inliers = agreeing(best.rotation, kAgreement);
     RotationConsensus result{best.rotation,
                              {},
                              best.inliers,
                              rival == fits.end() ? 0 : rival->inliers,
-                             sightings_.room(best.rotation, *inliers)};
-    for (const std::size_t n : *inliers) result.inliers.push_back(sightings_.match(n));
+                             sightings_.room(best.rotation, inliers)};
+    for (const std::size_t n : inliers) result.inliers.push_back(sightings_.match(n));
     return result;
   }
 

@@ -20,8 +20,9 @@ struct RotationConsensus {
 };
 
 /// RANSAC (Fischler and Bolles 1981) over pairs of matches. Each trial rotation moves the camera
-/// around the ball, so that its sights are looked up in the scene anew. Reentrant; deterministic.
-/// Error: those of optics::ball_projection, fewer than two matches.
+/// around the ball, so that its sights are looked up in the scene anew; one for which the camera
+/// has no projection is passed over. Reentrant; deterministic. Error: those of in_own_frame(),
+/// fewer than two matches, no rotation that agrees with two.
 Result<RotationConsensus> agree_on_rotation(const std::vector<Match>& matches,
                                             const optics::BallProjection& reference,
                                             const SoughtCamera& sought);

@@ -33,9 +33,10 @@ bool is_narrow(double apart) {
 /// Sightings through the stated scene, which is looked up anew at each rotation.
 class SightingsInScene final : public Sightings {
  public:
+  /// `own`: the sought camera in its own frame.
   SightingsInScene(const std::vector<Match>& matches, const BallProjection& reference,
-                   const SoughtCamera& sought)
-      : sought_(sought) {
+                   const SoughtCamera& sought, const BallProjection& own)
+      : sought_(sought), own_(own) {
     for (const Match& match : matches) {
       if (const auto seen = reference.direction(match.reference)) {
         matches_.push_back(match);
@@ -48,14 +49,14 @@ class SightingsInScene final : public Sightings {
   const Match& match(std::size_t n) const override { return matches_[n]; }
   int most_trials() const override { return 1500; }
 
-  Result<std::optional<Mat3>> hypothesis(const std::array<std::size_t, 2>& chosen) override {
+  std::optional<Mat3> hypothesis(const std::array<std::size_t, 2>& chosen) override {
     const double apart = angle_between(seen_[chosen[0]], seen_[chosen[1]]);
     if (is_narrow(apart)) return std::nullopt;
     // Starts far away and in the camera's own frame.
     Mat3 rotation;
     for (int round = 0; round <= kTurningRounds; ++round) {
-      const auto ball = turned(sought_, rotation, *sought_.camera.outline);
-      if (!ball) return tl::unexpected(ball.error());
+      const auto ball = round > 0 ? turned_by(rotation) : std::optional(own_);
+      if (!ball) return std::nullopt;
       std::array<DirectionPair, 2> pairs;
       for (std::size_t n = 0; n < 2; ++n) {
         const auto direction = towards(*ball, matches_[chosen[n]], round > 0);
@@ -69,10 +70,10 @@ class SightingsInScene final : public Sightings {
     return rotation;
   }
 
-  Result<std::vector<std::optional<DirectionPair>>> pairs(const Mat3& rotation) const override {
-    const auto ball = turned(sought_, rotation, *sought_.camera.outline);
-    if (!ball) return tl::unexpected(ball.error());
+  std::vector<std::optional<DirectionPair>> pairs(const Mat3& rotation) const override {
     std::vector<std::optional<DirectionPair>> all(matches_.size());
+    const auto ball = turned_by(rotation);
+    if (!ball) return all;
     for (std::size_t n = 0; n < matches_.size(); ++n) {
       const auto direction = ball->direction(matches_[n].camera);
       if (direction) all[n] = DirectionPair{seen_[n], transposed(rotation) * *direction};
@@ -80,14 +81,12 @@ class SightingsInScene final : public Sightings {
     return all;
   }
 
-  Result<Mat3> fitted(const Mat3& rotation,
-                      const std::vector<std::size_t>& inliers) const override {
-    return pairs(rotation).map([&](const auto& all) {
-      std::vector<DirectionPair> agreeing;
-      agreeing.reserve(inliers.size());
-      for (const std::size_t n : inliers) agreeing.push_back(*all[n]);
-      return agreeing.size() < 2 ? rotation : fit_rotation(agreeing);
-    });
+  Mat3 fitted(const Mat3& rotation, const std::vector<std::size_t>& inliers) const override {
+    const auto all = pairs(rotation);
+    std::vector<DirectionPair> agreeing;
+    agreeing.reserve(inliers.size());
+    for (const std::size_t n : inliers) agreeing.push_back(*all[n]);
+    return agreeing.size() < 2 ? rotation : fit_rotation(agreeing);
   }
   double exactness() const override { return kAgreement; }
 
@@ -96,6 +95,11 @@ class SightingsInScene final : public Sightings {
   }
 
  private:
+  /// nullopt: a camera that is turned like that has no projection.
+  std::optional<BallProjection> turned_by(const Mat3& rotation) const {
+    const auto ball = turned(sought_, rotation, *sought_.camera.outline);
+    return ball ? std::optional(*ball) : std::nullopt;
+  }
   static std::optional<Vec3> towards(const BallProjection& ball, const Match& match, bool in_room) {
     if (in_room) return ball.direction(match.camera);
     const auto ray = ball.ray(match.camera);
@@ -103,6 +107,7 @@ class SightingsInScene final : public Sightings {
   }
 
   const SoughtCamera& sought_;
+  BallProjection own_;
   std::vector<Match> matches_;
   std::vector<Vec3> seen_;  ///< directions of the reference camera, one per match
 };
@@ -127,27 +132,23 @@ class TurnFit {
 /// turn with the camera.
 class SightingsAnywhere final : public Sightings {
  public:
-  static Result<std::unique_ptr<Sightings>> make(const std::vector<Match>& matches,
-                                                 const BallProjection& reference,
-                                                 const SoughtCamera& sought) {
-    const auto unturned = align::turned(sought, Mat3{}, *sought.camera.outline);
-    if (!unturned) return tl::unexpected(unturned.error());
-    auto made = std::make_unique<SightingsAnywhere>();
+  /// `own`: the sought camera in its own frame.
+  SightingsAnywhere(const std::vector<Match>& matches, const BallProjection& reference,
+                    const BallProjection& own) {
     for (const Match& match : matches) {
       const auto seen = line_of_sight(reference, match.reference);
-      const auto other = line_of_sight(*unturned, match.camera);
+      const auto other = line_of_sight(own, match.camera);
       if (!seen || !other) continue;
-      made->matches_.push_back(match);
-      made->lines_.push_back({*seen, *other});
+      matches_.push_back(match);
+      lines_.push_back({*seen, *other});
     }
-    return made;
   }
 
   std::size_t size() const override { return matches_.size(); }
   const Match& match(std::size_t n) const override { return matches_[n]; }
   int most_trials() const override { return 5000; }  // their closeness is guessed, too
 
-  Result<std::optional<Mat3>> hypothesis(const std::array<std::size_t, 2>& chosen) override {
+  std::optional<Mat3> hypothesis(const std::array<std::size_t, 2>& chosen) override {
     std::array<DirectionPair, 2> pairs;
     for (std::size_t n = 0; n < 2; ++n) {
       const Lines& lines = lines_[chosen[n]];
@@ -161,7 +162,7 @@ class SightingsAnywhere final : public Sightings {
     return fit_rotation(pairs);
   }
 
-  Result<std::vector<std::optional<DirectionPair>>> pairs(const Mat3& rotation) const override {
+  std::vector<std::optional<DirectionPair>> pairs(const Mat3& rotation) const override {
     std::vector<std::optional<DirectionPair>> all;
     for (const Lines& lines : lines_) {
       const double closeness = met(lines, rotation).closeness;
@@ -173,8 +174,7 @@ class SightingsAnywhere final : public Sightings {
 
   /// A Gauss-Newton step from the differences across the parallax and, with much less weight, along
   /// it.
-  Result<Mat3> fitted(const Mat3& rotation,
-                      const std::vector<std::size_t>& inliers) const override {
+  Mat3 fitted(const Mat3& rotation, const std::vector<std::size_t>& inliers) const override {
     TurnFit fit;
     for (const std::size_t n : inliers) {
       const Meeting here = met(lines_[n], rotation);
@@ -228,8 +228,12 @@ class SightingsAnywhere final : public Sightings {
 Result<std::unique_ptr<Sightings>> make_sightings(const std::vector<Match>& matches,
                                                   const BallProjection& reference,
                                                   const SoughtCamera& sought) {
-  if (!states_scene(sought.rig)) return SightingsAnywhere::make(matches, reference, sought);
-  return std::make_unique<SightingsInScene>(matches, reference, sought);
+  return in_own_frame(sought).map([&](const BallProjection& own) -> std::unique_ptr<Sightings> {
+    if (states_scene(sought.rig)) {
+      return std::make_unique<SightingsInScene>(matches, reference, sought, own);
+    }
+    return std::make_unique<SightingsAnywhere>(matches, reference, own);
+  });
 }
 
 }  // namespace orbwatch::align

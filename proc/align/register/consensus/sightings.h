@@ -32,16 +32,15 @@ class Sightings {
   virtual const Match& match(std::size_t n) const = 0;
   /// Most rotations worth a trial.
   virtual int most_trials() const = 0;
-  /// A rotation from two matches; nullopt when they contradict each other.
-  virtual Result<std::optional<optics::Mat3>> hypothesis(
-      const std::array<std::size_t, 2>& chosen) = 0;
+  /// A rotation from two matches; nullopt when they contradict each other, or when a camera that is
+  /// turned like that has no projection.
+  virtual std::optional<optics::Mat3> hypothesis(const std::array<std::size_t, 2>& chosen) = 0;
   /// Directions of each match in both cameras with the sought one turned: in the reference frame,
-  /// and in the sought camera's own.
-  virtual Result<std::vector<std::optional<DirectionPair>>> pairs(
-      const optics::Mat3& rotation) const = 0;
+  /// and in the sought camera's own. All nullopt when the turned camera has no projection.
+  virtual std::vector<std::optional<DirectionPair>> pairs(const optics::Mat3& rotation) const = 0;
   /// A rotation improved by the matches that agree with it.
-  virtual Result<optics::Mat3> fitted(const optics::Mat3& rotation,
-                                      const std::vector<std::size_t>& inliers) const = 0;
+  virtual optics::Mat3 fitted(const optics::Mat3& rotation,
+                              const std::vector<std::size_t>& inliers) const = 0;
   /// Largest angle at which a match agrees with a well fitted rotation, radians.
   virtual double exactness() const = 0;
   /// The room estimated from the agreeing matches; nullopt where a scene is stated.
@@ -51,7 +50,7 @@ class Sightings {
 
 /// Sightings through the scene of the sought camera's rig; if it states none, anything may be
 /// anywhere along both lines of sight. `sought` outlives them. Reentrant. Error: those of
-/// optics::ball_projection.
+/// in_own_frame().
 Result<std::unique_ptr<Sightings>> make_sightings(const std::vector<Match>& matches,
                                                   const optics::BallProjection& reference,
                                                   const SoughtCamera& sought);

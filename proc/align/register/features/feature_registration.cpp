@@ -15,7 +15,6 @@ namespace orbwatch::align {
 namespace {
 
 using optics::BallProjection;
-using optics::Mat3;
 
 constexpr int kLeastMatches = 15;
 constexpr double kRivalInliers = 0.5;     // share of the best one's inliers that makes a rival
@@ -42,7 +41,7 @@ Result<Features> features(const cv::Mat& picture, const BallProjection& ball, do
 /// The sought camera in its own frame, in a room far away.
 Result<BallProjection> far_and_unturned(SoughtCamera sought) {
   sought.rig.scene = {};
-  return turned(sought, Mat3{}, *sought.camera.outline);
+  return in_own_frame(sought);
 }
 
 Result<RotationConsensus> first_estimate(const Pictures& pictures, const Features& seen,
@@ -92,7 +91,7 @@ Result<RotationRefinement> refined(const Pictures& pictures, const Features& see
 Result<Registration> register_by_features(const ReferenceCamera& reference,
                                           const SoughtCamera& sought,
                                           const WorkProgress& progress) {
-  const auto unturned = turned(sought, Mat3{}, *sought.camera.outline);
+  const auto unturned = in_own_frame(sought);
   if (!unturned) return tl::unexpected(unturned.error());
   const Pictures pictures{stretched(luminance_of(reference.picture)),
                           stretched(luminance_of(sought.picture)),

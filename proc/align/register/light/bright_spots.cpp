@@ -8,6 +8,7 @@
 #include <string>
 
 #include "proc/align/detect/picture/luminance.h"
+#include "proc/align/limb_distance.h"
 
 namespace orbwatch::align {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t kMostForMedian = 15;
 constexpr double kNoises = 10;         // standard deviations of the background
 constexpr double kShareOfPeak = 0.15;  // share of the brightest change in the whole sequence
+constexpr double kLimbMargin = 2;      // px around the limb, so that a spot on it is whole
 
 /// Pictures as 16 bit, so that one pixel type suffices.
 std::vector<cv::Mat> luminances(std::span<const Picture> pictures) {
@@ -46,6 +48,21 @@ cv::Mat median_picture(const std::vector<cv::Mat>& pictures) {
   return middle;
 }
 
+/// 255 within the limb, or everywhere without one.
+cv::Mat mask_of_ball(const std::optional<optics::Outline>& limb, const cv::Size& size) {
+  if (!limb) return cv::Mat(size, CV_8U, cv::Scalar(255));
+  const LimbDistance distance(
+      {limb->centre, limb->rx + kLimbMargin, limb->ry + kLimbMargin, limb->angle});
+  cv::Mat mask(size, CV_8U);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const bool is_ball = distance.squared({u - limb->centre.u, v - limb->centre.v}) <= 1;
+      mask.at<std::uint8_t>(v, u) = is_ball ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
 std::vector<BrightSpot> spots(const cv::Mat& change, double threshold) {
   cv::Mat bright, labels, stats, centres;
   cv::compare(change, cv::Scalar(threshold), bright, cv::CMP_GT);
@@ -75,7 +92,8 @@ std::vector<BrightSpot> spots(const cv::Mat& change, double threshold) {
 
 }  // namespace
 
-Result<std::vector<std::vector<BrightSpot>>> bright_spots(std::span<const Picture> pictures) {
+Result<std::vector<std::vector<BrightSpot>>> bright_spots(
+    std::span<const Picture> pictures, const std::optional<optics::Outline>& limb) {
   if (pictures.size() < kLeastPictures) {
     return fail("a sequence of " + std::to_string(pictures.size()) + " pictures is too short, " +
                 std::to_string(kLeastPictures) + " are needed");
@@ -87,16 +105,18 @@ Result<std::vector<std::vector<BrightSpot>>> bright_spots(std::span<const Pictur
   }
   const std::vector<cv::Mat> all = luminances(pictures);
   const cv::Mat background = median_picture(all);
+  const cv::Mat ball = mask_of_ball(limb, background.size()), elsewhere = ~ball;
   std::vector<cv::Mat> changes;
   double peak = 0, noise = 1;
   for (const cv::Mat& picture : all) {
     cv::Mat brighter;
     cv::subtract(picture, background, brighter);
+    brighter.setTo(0, elsewhere);
     double highest = 0;
     cv::minMaxLoc(brighter, nullptr, &highest);
     peak = std::max(peak, highest);
     // Half of all pixels are darker than the median: the mean of the rest is 0.4 sigma.
-    noise = std::max(noise, cv::mean(cv::min(brighter, 50))[0] / 0.4);
+    noise = std::max(noise, cv::mean(cv::min(brighter, 50), ball)[0] / 0.4);
     changes.push_back(brighter);
   }
   std::vector<std::vector<BrightSpot>> found;

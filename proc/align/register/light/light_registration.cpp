@@ -152,7 +152,8 @@ class LightSearch {
     }
     Mat3 rotation;
     for (int round = 0; round < 3; ++round) {
-      const auto ball = turned(sought_, rotation, *sought_.camera.outline);
+      const auto ball =
+          round == 0 ? in_own_frame(sought_) : turned(sought_, rotation, *sought_.camera.outline);
       if (!ball) return std::nullopt;
       std::array<DirectionPair, 2> pairs;
       for (std::size_t n = 0; n < 2; ++n) {
@@ -277,11 +278,11 @@ class LightSearch {
 Result<std::vector<Registration>> register_by_light(const SimultaneousPictures& pictures,
                                                     const BallProjection& reference,
                                                     const SoughtCamera& sought) {
-  const auto seen = bright_spots(pictures.reference);
+  const auto seen = bright_spots(pictures.reference, reference.outline());
   if (!seen) return tl::unexpected(seen.error());
-  const auto others = bright_spots(pictures.camera);
+  const auto others = bright_spots(pictures.camera, sought.camera.outline);
   if (!others) return tl::unexpected(others.error());
-  const auto unturned = turned(sought, Mat3{}, *sought.camera.outline);
+  const auto unturned = in_own_frame(sought);
   if (!unturned) return tl::unexpected(unturned.error());
   std::vector<Moment> moments(std::min(seen->size(), others->size()));
   for (std::size_t m = 0; m < moments.size(); ++m) {

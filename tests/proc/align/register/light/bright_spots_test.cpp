@@ -28,7 +28,7 @@ std::vector<cv::Mat> process(int type, double light) {
 
 TEST(BrightSpots, AreWhatMovesNotWhatIsAlwaysBright) {
   for (const auto& pixels : {process(CV_8U, 250), process(CV_16U, 40'000)}) {
-    const auto found = bright_spots(tests::pictures_of_mats(pixels));
+    const auto found = bright_spots(tests::pictures_of_mats(pixels), std::nullopt);
     ASSERT_TRUE(found) << found.error().message;
     ASSERT_EQ(found->size(), pixels.size());
     for (std::size_t n = 0; n < found->size(); ++n) {
@@ -39,12 +39,30 @@ TEST(BrightSpots, AreWhatMovesNotWhatIsAlwaysBright) {
   }
 }
 
+/// Light beside the ball is ten times as bright as its spot, and would hide it by its share of the
+/// peak.
+TEST(BrightSpots, AreWithinTheLimb) {
+  const optics::Outline limb{{60, 40}, 50, 30, 0};
+  auto pixels = process(CV_16U, 4'000);
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    const cv::Point beside(20 + 15 * static_cast<int>(n), 90);
+    cv::circle(pixels[n], beside, 3, cv::Scalar(40'000), cv::FILLED);
+  }
+  const auto found = bright_spots(tests::pictures_of_mats(pixels), limb);
+  ASSERT_TRUE(found) << found.error().message;
+  for (std::size_t n = 0; n < found->size(); ++n) {
+    ASSERT_EQ((*found)[n].size(), 1U) << n;
+    EXPECT_NEAR((*found)[n][0].centre.u, 20.0 + 10.0 * static_cast<double>(n), 0.1);
+    EXPECT_NEAR((*found)[n][0].centre.v, 30, 0.1);
+  }
+}
+
 TEST(BrightSpots, RefuseShortAndMixedSequences) {
   auto pixels = process(CV_8U, 250);
   const auto all = tests::pictures_of_mats(pixels);
-  EXPECT_FALSE(bright_spots(std::span(all).first(kLeastPictures - 1)));
+  EXPECT_FALSE(bright_spots(std::span(all).first(kLeastPictures - 1), std::nullopt));
   pixels[3] = cv::Mat(50, 50, CV_8U, cv::Scalar(0));
-  EXPECT_FALSE(bright_spots(tests::pictures_of_mats(pixels)));
+  EXPECT_FALSE(bright_spots(tests::pictures_of_mats(pixels), std::nullopt));
 }
 
 }  // namespace
