@@ -40,11 +40,17 @@ read_options() {
 }
 
 # Sets files to the packages of orbwatch that the image contains: all but manuals, types and the module for videos.
+# Without --packages those of the present commit, which are built unless build-deb has left them.
 find_packages() {
-  local file name
+  local file name commit
   if [[ -z $packages ]]; then
     packages=$PWD/build/deb/$suite-$architecture
-    [[ -e $packages ]] || platform/build-deb --suite "$suite" --arch "$architecture"
+    commit=$(platform/build-deb --commit)
+    # Changed files may have changed again since.
+    if [[ $commit == *-changed || $(cat "$packages/commit" 2>/dev/null) != "$commit" ]]; then
+      echo "$program: builds orbwatch's packages of $commit; --packages takes others" >&2
+      platform/build-deb --suite "$suite" --arch "$architecture"
+    fi
   fi
   files=()
   for name in orbwatch orbwatch-camera-genicam orbwatch-camera-libcamera; do
@@ -53,9 +59,15 @@ find_packages() {
   [[ ${files[0]:-} == */orbwatch_* ]] || refuse "$packages has no orbwatch_*_$architecture.deb"
 }
 
+# names_in FOLDER...: prints type, mode, name and target of all that the folders have.
+names_in() {
+  local folder
+  for folder in "$@"; do find "$folder" -printf '%y %m %P %l\n' | LC_ALL=C sort; done
+}
+
 # Makes the contents of a slot; sets tools and slot to their folders.
 make_signed_slot() {
-  local base needed epoch system inputs=()
+  local base needed epoch system folders inputs=()
   epoch=$(git log -1 --format=%ct)
   export SOURCE_DATE_EPOCH=$epoch
   find_packages
@@ -68,11 +80,17 @@ make_signed_slot() {
   mapfile -t needed < <(platform/debian/needed_by "${files[@]}")
   tests/support/cached "$base" -- platform/image/make_base "$suite" "$architecture" "${needed[@]}" "${added[@]}"
   mapfile -t system < <(find platform/image/system -type f | sort)
-  inputs=(platform/image/make_root "${system[@]}" "${files[@]}" "$tools.made-from" "$base.made-from")
+  # Systems of the same command may have other versions of Debian's packages.
+  inputs=(platform/image/make_root "${system[@]}" "${files[@]}" "$tools.made-from" "$base.made-from"
+    "$tools/var/lib/dpkg/status" "$base/var/lib/dpkg/status")
   [[ $certificate == - ]] || inputs+=("$certificate")
   [[ $configuration == - ]] || mapfile -t -O "${#inputs[@]}" inputs < <(find -L "$configuration" -type f | sort)
   [[ $more == - ]] || mapfile -t -O "${#inputs[@]}" inputs < <(find -L "$more" -type f | sort)
   slot=build/image/$suite-$architecture-$version
+  mapfile -t folders < <(printf '%s\n' platform/image/system "$configuration" "$more" | grep -vx -e -)
+  mkdir -p build/image
+  names_in "${folders[@]}" >"$slot.names"
+  inputs+=("$slot.names")
   tests/support/cached "$slot" "${inputs[@]}" -- platform/image/make_slot "$tools" "$architecture" "$consoles" \
     "$base" "$epoch" "$version" "$certificate" "$configuration" "$more" "${files[@]}"
   # shellcheck disable=SC2086

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """An update that was built without the key is signed on another computer. RAUC's own check of such a bundle is in
 tests/platform/image/run."""
+import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -86,6 +88,49 @@ class SignBundle(unittest.TestCase):
             file.write_bytes(content)
             self.expect_refused("not an update", self.sign(file))
         self.expect_refused("format verity", self.sign(self.make_bundle("plain", b"[update]\nversion=1\n")))
+
+    def test_key_has_the_name_of_its_owner_or_is_not_made(self):
+        for number, name in enumerate(("HUBER+SUHNER", "Müller GmbH", "A, B & C = D", "x" * 64)):
+            certificate = f"{self.make_key_of(number, name)}.crt"
+            subject = openssl("x509", "-in", certificate, "-noout", "-subject", "-nameopt", "multiline,utf8,-esc_msb")
+            self.assertIn(f"organizationName          = {name}\n", subject.decode())
+        refused = run(ROOT / "platform/make-update-key", self.folder / "long", "x" * 65)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn(b"65 characters", refused.stderr)
+        self.assertFalse((self.folder / "long").exists())
+
+    def make_key_of(self, number, name):
+        folder = self.folder / str(number)
+        made = run(ROOT / "platform/make-update-key", folder, name, env={**os.environ, "LC_ALL": "C.UTF-8"})
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(sorted(one.name for one in folder.iterdir()), ["update.crt", "update.key"])
+        return folder / "update"
+
+    def test_missing_openssl_is_named(self):
+        programs = self.programs()
+        needed = run("bash", ROOT / "platform/install_packages", "--list", "image").stdout.decode().split()
+        self.assertIn("openssl", needed)
+        refused = run(ROOT / "platform/sign-bundle", self.bundle, env={"PATH": programs})
+        self.assertEqual((refused.returncode, refused.stderr), (2, b"sign-bundle: openssl is not installed\n"))
+
+    def programs(self):
+        """A folder with the programs of this computer, except openssl."""
+        folder = self.folder / "programs"
+        folder.mkdir()
+        for name in ("bash", "cat", "dirname", "mkdir", "mktemp", "rm"):
+            (folder / name).symlink_to(shutil.which(name))
+        return folder
+
+    def test_errors_of_openssl_are_shown_when_a_bundle_cannot_be_made(self):
+        programs = self.programs()
+        make = [ROOT / "platform/image/make_bundle", self.folder / "new.raucb", "tools", "amd64", "1",
+                self.folder / "slot"]
+        failed = run(*make, env={"PATH": programs})
+        self.assertNotEqual(failed.returncode, 0)
+        self.assertIn(b"openssl: command not found", failed.stderr)
+        (programs / "openssl").write_text("#!/bin/sh\necho disk full >&2\nexit 1\n", encoding="utf-8")
+        (programs / "openssl").chmod(0o755)
+        self.assertEqual(run(*make, env={"PATH": programs}).stderr, b"disk full\n")
 
     def test_file_is_not_overwritten(self):
         self.signed.write_text("precious", encoding="utf-8")

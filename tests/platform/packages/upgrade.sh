@@ -29,6 +29,7 @@ test_upgrade() {
   check "a downgrade is refused with a sentence" downgrade_is_refused
   check "version $version runs on" wait_for "$patience" measures
   check "and is installed" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
+  check "nor is it installed where $version was removed" removed_is_not_replaced
 }
 
 # The executable of a process is deleted once its program was replaced.
@@ -77,6 +78,9 @@ test_older_files() {
   inside rm /var/lib/orbwatch/calibration.toml
   check "and without it, it measures" wait_for "$patience" measures
 }
+
+# Configuration and state are still there.
+removed_is_not_replaced() { inside apt-get remove -y orbwatch && downgrade_is_refused; }
 
 downgrade_is_refused() {
   ! inside sh -c 'apt-get install -y --allow-downgrades /packages/older/orbwatch_*.deb' >"$work/downgrade" 2>&1 &&
