@@ -19,6 +19,16 @@ from page_case import ZONE, PageCase
 PASSWORD = "correct horse battery"
 NEXT_PASSWORD = "a forgotten one replaced"
 OWN_PASSWORD = "chosen by its own user"
+# The first request for the session fails.
+FAIL_ONCE = """{
+  const { fetch } = window;
+  let fails = true;
+  window.fetch = (address, ...more) => {
+    if (!fails || address !== 'api/v1/session') return fetch(address, ...more);
+    fails = false;
+    return Promise.reject(new Error('no connection'));
+  };
+}"""
 
 
 class Access(PageCase):
@@ -86,6 +96,12 @@ class Access(PageCase):
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "api/v1/live" not in entry["message"]], [])
 
+    def test_2_a_connection_that_is_there_is_not_called_missing(self):
+        self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": FAIL_ONCE})
+        self.browser.get(self.appliance.address)
+        eventually("the form", lambda: self.access_fields("password"))
+        self.assertEqual(self.browser.text("#condition"), "")
+
     def test_2_nobody_gets_in_without_it(self):
         self.browser.get(self.appliance.address)
         eventually("the form", lambda: self.access_fields("password"))
@@ -122,17 +138,25 @@ class Access(PageCase):
         self.browser.get(self.appliance.address)
         self.fill_access(user="admin", password=PASSWORD)
         self.expect_live()
+        self.browser.hold_answers("api/v1/session")
         subprocess.run(
             [ROOT / "build/release/app/orbwatch", "password",
              "--config", self.appliance.folder / "demo.toml"],
             input=NEXT_PASSWORD + "\n", encoding="utf-8", check=True, capture_output=True)
         # The session with the old password ends, and its stream with it; the page remains.
         self.browser.execute_script("window.isTheSamePage = true")
+        # Slow answers do not add up: each would make the form anew while somebody types.
+        eventually("the stream is asked for again and again", lambda: len(self.browser.asked("api/v1/live")) > 2)
+        self.assertEqual(len(self.browser.asked("api/v1/session")), 1)
+        self.browser.let_go()
         eventually("the form", lambda: self.access_fields("password"))
         self.fill_access(user="admin", password=PASSWORD)
         eventually("the old one is refused",
                    lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
+        self.browser.hold_answers("api/v1/session", "busy")
         self.fill_access(user="admin", password=NEXT_PASSWORD)
+        eventually("the session is asked for", self.browser.held_answers)
+        self.browser.let_go()
         eventually("the form is gone", lambda: self.browser.execute_script(
             "return document.getElementById('access').hidden"))
         self.expect_live()
@@ -174,6 +198,45 @@ class Access(PageCase):
                    lambda: token not in self.browser.text("#people"))
         self.assertEqual(self.browser.complaints(), [])
 
+    def test_7_the_token_stays_when_the_lists_cannot_be_read(self):
+        self.browser.get(f"{self.appliance.address}#/system")
+        self.fill_access(user="admin", password=NEXT_PASSWORD)
+        self.open_people()
+        self.browser.hold_answers("api/v1/audit", "the disk is full")
+        self.submit(self.browser.find_elements(By.CSS_SELECTOR, "#people form")[1], name="dashboard", role="viewer")
+        eventually("the lists are read", self.browser.held_answers)
+        self.browser.let_go()
+        eventually("the reason", lambda: "the disk is full" in self.browser.text("#people [role=alert]"))
+        token = re.search(r"once: (\S+)", self.browser.text("#people [role=status]"))[1]
+        self.assertEqual(self.status_of("api/v1/status", {"Authorization": f"Bearer {token}"}), 200)
+        for _ in range(2):  # closes and opens the card
+            self.browser.find_element(By.CSS_SELECTOR, "#people > summary").click()
+        eventually("the lists are read again", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[aria-label='Revoke dashboard']"))
+        self.assertEqual(self.browser.text("#people [role=alert]"), "")
+        self.press("Revoke dashboard")
+        eventually("the token is of no use", lambda: self.status_of(
+            "api/v1/status", {"Authorization": f"Bearer {token}"}) == 401)
+
+    def test_7_a_second_press_does_not_replace_the_token(self):
+        self.browser.get(f"{self.appliance.address}#/system")
+        self.fill_access(user="admin", password=NEXT_PASSWORD)
+        self.open_people()
+        self.browser.hold_answers("api/v1/create_token")
+        form = self.browser.find_elements(By.CSS_SELECTOR, "#people form")[1]
+        self.submit(form, name="twice", role="viewer")
+        form.find_element(By.TAG_NAME, "button").click()
+        self.assertEqual(len(self.browser.asked("api/v1/create_token")), 1)
+        self.browser.let_go()
+        eventually("the token", lambda: re.search(r"once: \S+", self.browser.text("#people [role=status]")))
+        eventually("the lists are read again", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[aria-label='Revoke twice']"))
+        self.browser.execute_script(
+            "const button = document.querySelector(`[aria-label='Revoke twice']`); button.click(); button.click()")
+        eventually("it is revoked", lambda: not self.browser.find_elements(
+            By.CSS_SELECTOR, "[aria-label='Revoke twice']"))
+        self.assertEqual(len(self.browser.asked("api/v1/revoke_token")), 1)
+
     def test_8_nor_from_that_part(self):
         self.browser.look_for_barriers()
         self.browser.get(f"{self.appliance.address}#/system")
@@ -211,7 +274,11 @@ class Access(PageCase):
         self.submit(form, old=PASSWORD, password=OWN_PASSWORD, again=OWN_PASSWORD)
         said("password is wrong")
         self.assertEqual(self.status_of("api/v1/status", elsewhere), 200)
+        self.browser.hold_answers("api/v1/set_password")
         self.submit(form, old=NEXT_PASSWORD, password=OWN_PASSWORD, again=OWN_PASSWORD)
+        form.find_element(By.TAG_NAME, "button").click()  # would be refused: the old one is another now
+        self.assertEqual(len(self.browser.asked("api/v1/set_password")), 1)
+        self.browser.let_go()
         said("Changed")
         self.browser.keep_picture("own-password")
         self.assertEqual([one.get_property("value") for one in form.find_elements(By.TAG_NAME, "input")],

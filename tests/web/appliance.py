@@ -28,11 +28,11 @@ LOOPBACK_DDS = (
 
 def eventually(what, condition, patience_s=PATIENCE_S):
     """Returns the result of `condition` as soon as it is true in Python's sense; polls a real
-    program."""
+    program. `what`: text, or a function that states it at the time of the failure."""
     give_up = time.monotonic() + patience_s
     while not (value := condition()):
         if time.monotonic() > give_up:
-            raise AssertionError(f"not within {patience_s} s: {what}")
+            raise AssertionError(f"not within {patience_s} s: {what() if callable(what) else what}")
         time.sleep(0.05)
     return value
 
@@ -61,6 +61,19 @@ class Appliance:
         (self.folder / "demo.toml").write_text(site, encoding="utf-8")
         self.daemon = None
 
+    def add_ball_view(self, side):
+        """Adds the view "whole" of kind ball, of the colour camera alone, to the site."""
+        with (self.folder / "demo.toml").open("a", encoding="utf-8") as site:
+            site.write(f'''
+[[view]]
+name = "whole"
+kind = "ball"
+width = {side}
+height = {side}
+[[view.source]]
+camera = "colour"
+''')
+
     def environment(self):
         """Environment of the daemon, in addition to the test's own."""
         return {}
@@ -68,6 +81,18 @@ class Appliance:
     def around(self):
         """Command that runs the daemon, as the words before it."""
         return []
+
+    def unplug(self, *cameras):
+        """Unplugs these simulated cameras after some frames; they stay so. Then the appliance may not be seen running
+        without a fault: start() waits for an answer alone."""
+        site = (self.folder / "demo.toml").read_text(encoding="utf-8")
+        for camera in cameras:
+            simulated = f'[camera.simulated]\nkind = "{camera}"\n'
+            assert simulated in site, "the demo's site file has changed"
+            fault = '[[camera.fault]]\nfault = "unplugged"\nfrom = 60\nuntil = 1000000000\n'
+            site = site.replace(simulated, fault + simulated)
+        (self.folder / "demo.toml").write_text(site, encoding="utf-8")
+        self.runs = self.is_healthy
 
     def start(self, is_up=None):
         """Waits until `is_up`, by default runs(), which needs no log-in as long as there are no
@@ -116,8 +141,13 @@ class Appliance:
         return "\n".join([f"daemon's exit code: {self.daemon.poll()}", *lines[-20:], *threads, str(status)])
 
     def stop(self):
+        """Fails when the daemon has ended by itself unnoticed, or ends with an error; nothing if it was seen to end."""
+        if self.daemon.returncode is not None:
+            return
+        has_ended = self.daemon.poll() is not None
         self.daemon.send_signal(signal.SIGTERM)
-        self.daemon.wait(PATIENCE_S)
+        code = self.daemon.wait(PATIENCE_S)
+        assert code == 0 and not has_ended, f"the daemon ended with {code}:\n{self.diagnosis()}"
 
     def close(self):
         self.stop()

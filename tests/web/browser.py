@@ -12,6 +12,8 @@ from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
+from appliance import PATIENCE_S
+
 PICTURES = pathlib.Path(__file__).resolve().parents[2] / "build/web"
 AXE = PICTURES / "node_modules/axe-core/axe.min.js"
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "app/ports/web/page/files"
@@ -20,6 +22,13 @@ ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--dis
              "--disable-quic", "--no-first-run", "--disable-background-networking",
              "--disable-component-update", "--disable-sync", "--window-size=1280,900",
              "--enable-unsafe-swiftshader"]  # WebGL by software, without a complaint
+
+# Begins a script: from now on pictures are decoded, as blank ones, only after release().
+HOLD_DECODING = """
+    const decode = window.createImageBitmap.bind(window);
+    let release;
+    const released = new Promise((go) => { release = go; });
+    window.createImageBitmap = async () => (await released, decode(new ImageData(8, 8)));"""
 
 
 def module_address(name):
@@ -40,6 +49,7 @@ class Browser(webdriver.Chrome):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         super().__init__(service=Service("/usr/bin/chromedriver"), options=options)
+        self.set_script_timeout(PATIENCE_S)
 
     def close_all(self):
         self.quit()
@@ -58,6 +68,11 @@ class Browser(webdriver.Chrome):
     def text(self, selector):
         return self.execute_script(
             "return document.querySelector(arguments[0])?.textContent ?? ''", selector)
+
+    def state(self):
+        """What the page says, and the newest messages on the console, for the message of a failure."""
+        console = [entry["message"] for entry in self.get_log("browser")]
+        return f"{self.current_url}: {self.text('body').strip()[:300]!r}, console: {console[-5:]}"
 
     def picture_numbers(self):
         """For each view the number of the picture on its canvas; 0: none."""
@@ -118,6 +133,78 @@ class Browser(webdriver.Chrome):
             const sums = [];
             for (let k = 0; k < pixels.length; k += 4) sums.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
             return sums;""", selector)
+
+    def hold_answers(self, path, refusal=""):
+        """Holds the answers to requests whose path contains this one back from the page, until let_go(). `refusal`:
+        reason that is answered in place of the appliance, which receives no such request then."""
+        self.execute_script("""
+            const [path, refusal] = arguments, fetched = window.fetch;
+            const hold = { held: [], asked: [] };
+            window.answers = hold;
+            window.fetch = async (address, ...more) => {
+              hold.asked.push([String(address), more[0]?.body ?? '']);
+              const isHeld = hold.held && String(address).includes(path);
+              const answer = isHeld && refusal
+                ? new Response(JSON.stringify({ error: refusal }), { status: 409 }) : await fetched(address, ...more);
+              if (isHeld) await new Promise((go) => (hold.held ? hold.held.push(go) : go()));
+              return answer;
+            };""", path, refusal)
+
+    def held_answers(self):
+        """Number of answers that wait for let_go()."""
+        return self.execute_script("return window.answers.held.length")
+
+    def let_go(self):
+        """Passes on what hold_answers() has held, the oldest first, and holds nothing more."""
+        self.execute_script("""
+            const { held } = window.answers;
+            window.answers.held = null;
+            for (const go of held) go();""")
+
+    def asked(self, path):
+        """Addresses and bodies of the page's requests since hold_answers() whose path contains this one."""
+        return self.execute_script(
+            "return window.answers.asked.filter(([address]) => address.includes(arguments[0]))", path)
+
+    def silence_pipeline(self):
+        """From now on the page receives what an appliance sends whose pipeline does not report: the last status again
+        and again, no pictures, and no history. Loading the page ends it."""
+        self.execute_async_script("""
+            const [done] = arguments, fetched = window.fetch, kPeriodMs = 250, kAgeS = 10;
+            const encode = (text) => new TextEncoder().encode(text);
+            const repeat = (parts, signal) => new ReadableStream({ start(sender) {
+              const again = setInterval(() => parts.forEach((part) => sender.enqueue(part)), kPeriodMs);
+              signal.addEventListener('abort', () => {
+                clearInterval(again);
+                sender.error(new Error('aborted'));
+              });
+            } });
+            fetched('api/v1/status').then((answer) => answer.json()).then((status) => {
+              const body = encode(JSON.stringify({ ...status, age: kAgeS }));
+              const head = encode(`${JSON.stringify({ kind: 'status', bytes: body.length })}\\n`);
+              window.fetch = async (address, options) => {
+                const isFor = (path) => String(address).startsWith(path);
+                if (isFor('api/v1/live?')) return new Response(repeat([head, body], options.signal));
+                return isFor('api/v1/history?') ? new Response('', { status: 503 }) : fetched(address, options);
+              };
+              document.dispatchEvent(new Event('visibilitychange')); // opens the stream anew
+              done();
+            });""")
+
+    def state_another_version(self):
+        """From now on the page receives another version of the appliance, as after an update. Loading the page ends
+        it."""
+        self.execute_script("""
+            const fetched = window.fetch;
+            window.versions = 0;
+            window.fetch = async (address, ...more) => {
+              const answer = await fetched(address, ...more);
+              if (!String(address).endsWith('openapi.json')) return answer;
+              const description = await answer.json();
+              description.info.version = 'another';
+              ++window.versions;
+              return new Response(JSON.stringify(description));
+            };""")
 
     def touch(self, kind, points):
         self.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [

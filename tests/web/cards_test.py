@@ -60,7 +60,8 @@ class Cards(PageCase):
         self.assertLessEqual(max(box[3] for box in boxes), 900)
         status = self.appliance.status()
         states = self.states()
-        self.assertEqual(states["state"], status["system"]["state_text"])
+        # On a busy machine a camera that is late degrades the state for a moment.
+        eventually("the same state", lambda: self.states()["state"] == self.appliance.status()["system"]["state_text"])
         self.assertEqual(states["cameras"], "2 of 2 deliver")
         self.assertIn(f"of {len(status['views'])} live", states["views"])
         self.assertRegex(states["stages"], r"^\d+ % of its deadline$")

@@ -159,6 +159,10 @@ class Charts(PageCase):
         self.browser.touch("touchEnd", [])
         eventually("a finger does the same", lambda: ":" in self.read()[1])
         self.expect_reading(10)
+        elsewhere = self.browser.find_element(By.CSS_SELECTOR, "[data-region=pool] h3")
+        self.browser.execute_script("arguments[0].scrollIntoView({ block: 'center' });", elsewhere)
+        self.browser.tap(elsewhere)
+        eventually("a finger elsewhere ends it", lambda: self.read()[1] == "now")
 
     def test_keys_move_along_the_chart(self):
         canvas = self.plot.find_element(By.TAG_NAME, "canvas")

@@ -64,6 +64,17 @@ class ConfigurationPage(PageCase):
             By.CSS_SELECTOR, "#configuration button") if one.text == label]
         button.click()
 
+    def press_twice(self, label, path):
+        """Presses a button again before the answer to its request, which contains this path; there is one request."""
+        self.browser.hold_answers(path)
+        self.browser.execute_script("""
+            const button = [...document.querySelectorAll('#configuration button')]
+              .find(({ textContent }) => textContent === arguments[0]);
+            button.click();
+            button.click();""", label)
+        self.assertEqual(len(self.browser.asked(path)), 1)
+        self.browser.let_go()
+
     def type_into(self, name, old, new):
         """Types a text like a user, but at once."""
         self.browser.execute_script("""
@@ -82,7 +93,7 @@ class ConfigurationPage(PageCase):
 
     def try_another_name(self, old, new):
         self.type_into("demo-recipe.toml", f'name = "{old}"', f'name = "{new}"')
-        self.press("Try out")
+        self.press_twice("Try out", "try_configuration")
         eventually("it runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() != self.checksum
             and self.appliance.configuration()["trial"]))
@@ -105,7 +116,7 @@ class ConfigurationPage(PageCase):
     def test_configuration_is_kept_byte_for_byte(self):
         self.try_another_name("cladding", "by_hand")
         self.browser.keep_picture("configuration")
-        self.press("Keep it")
+        self.press_twice("Keep it", "confirm_configuration")
         eventually("the file is written",
                    lambda: self.appliance.recipe.read_bytes() != self.recipe)
         self.assertEqual(self.appliance.recipe.read_bytes(),
@@ -113,6 +124,7 @@ class ConfigurationPage(PageCase):
         eventually("nothing waits",
                    lambda: self.appliance.configuration()["trial"] is None)
         self.assertNotEqual(self.appliance.checksum(), self.checksum)
+        self.assertNotIn("Refused", self.said())
 
     def test_configuration_of_a_second_editor_removes_no_change(self):
         self.type_into("demo-recipe.toml", "name = ", "# typed here\nname = ")
@@ -168,12 +180,36 @@ class ConfigurationPage(PageCase):
         self.press("Try out")
         eventually("it runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() != self.checksum and self.appliance.configuration()["trial"]))
+        eventually("the page can end it", lambda: "is reverted in" in self.browser.text("#configuration [role=timer]"))
         self.press("Keep it")
         merged[0] = lines[0].replace("in its place", "in its own place")
         merged[name] = 'name = "mine"'
         merged[-1] = theirs[-1]
         eventually("the file has both changes", lambda: self.appliance.recipe.read_bytes().decode()
                    == "\r\n".join(merged))
+
+    def test_configuration_that_is_uploaded_is_merged_with_a_change_on_the_board(self):
+        lines = self.recipe.decode().split("\r\n")
+        name = next(n for n, line in enumerate(lines) if line.startswith("name = "))
+        uploaded, theirs = [*lines], [*lines]
+        uploaded[name] = 'name = "uploaded"'
+        theirs[-1] = "# theirs, beside an upload"
+        file = self.appliance.folder / "uploaded" / "demo-recipe.toml"
+        file.parent.mkdir()
+        file.write_bytes("\r\n".join(uploaded).encode())
+        self.browser.find_element(By.CSS_SELECTOR, "#configuration [type=file]").send_keys(str(file))
+        eventually("its text", lambda: uploaded[name] in self.areas()["demo-recipe.toml"].get_attribute("value"))
+        self.addCleanup(self.appliance.recipe.write_bytes, self.recipe)
+        self.appliance.recipe.write_bytes("\r\n".join(theirs).encode())
+        self.press("Try out")
+        eventually("each change is chosen", lambda: self.chosen() == ["mine", "theirs"])
+        self.browser.find_element(By.CSS_SELECTOR, "#configuration .merge:not([hidden]) > p > button").click()
+        uploaded[-1] = theirs[-1]
+        self.assertEqual(self.areas()["demo-recipe.toml"].get_attribute("value"), "\n".join(uploaded))
+        self.press("Check and show the difference")
+        difference = "#configuration pre[tabindex]"
+        eventually("the difference", lambda: '+name = "uploaded"' in self.browser.text(difference))
+        self.assertNotIn("+# theirs", self.browser.text(difference))
 
     def test_configuration_goes_back_when_asked(self):
         self.try_another_name(self.name_in_file(), "another")
@@ -187,14 +223,18 @@ class ConfigurationPage(PageCase):
         self.assertIn("started on the board", self.browser.text("#configuration [role=timer]"))
         self.browser.execute_script("location.hash = '#/live'")
         eventually("the header counts the seconds", lambda: re.search(
-            r"reverted in \d+ s", self.browser.text("#notices")))
-        [revert] = [one for one in self.browser.find_elements(By.CSS_SELECTOR, "#notices button")
+            r"reverted in \d+ s", self.browser.text("#trial [role=timer]")))
+        # Outside of the notices: a screen reader would announce each second.
+        self.assertNotIn("reverted in", self.browser.text("#notices"))
+        self.assertIn("A configuration runs on trial", self.browser.text("#notices"))
+        [revert] = [one for one in self.browser.find_elements(By.CSS_SELECTOR, "#trial button")
                     if one.text == "Revert now"]
         revert.click()
         eventually("the old one runs", lambda: self.appliance.says(
             lambda: self.appliance.checksum() == self.checksum))
         eventually("the header names no trial",
-                   lambda: "reverted in" not in self.browser.text("#notices"))
+                   lambda: not self.browser.find_element(By.ID, "trial").is_displayed()
+                   and "on trial" not in self.browser.text("#notices"))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
 
     def test_configuration_that_is_refused_is_named_on_all_pages(self):
@@ -215,6 +255,18 @@ class ConfigurationPage(PageCase):
         self.assertFalse(self.browser.execute_script(asks))
         self.type_into("demo-recipe.toml", "name = ", "# typed here\nname = ")
         self.assertTrue(self.browser.execute_script(asks))
+
+    def test_configuration_that_is_typed_delays_the_page_of_another_version(self):
+        self.type_into("demo-recipe.toml", "name = ", "# typed here\nname = ")
+        self.browser.execute_script("window.isTheSamePage = true")
+        self.browser.state_another_version()
+        self.hide_for_a_while()
+        eventually("the version was read", lambda: self.browser.execute_script("return window.versions") > 0)
+        done = self.appliance.status()["system"]["frame_set"]
+        eventually("more statuses", lambda: self.appliance.status()["system"]["frame_set"] > done + 15)
+        self.assertTrue(self.browser.execute_script("return window.isTheSamePage"))
+        self.type_into("demo-recipe.toml", "# typed here\nname = ", "name = ")
+        eventually("a new page", lambda: not self.browser.execute_script("return window.isTheSamePage ?? false"))
 
     def test_configuration_that_was_sent_goes_back_by_itself(self):
         sent = self.appliance.folder / "sent" / "demo-recipe.toml"
@@ -249,7 +301,7 @@ class ConfigurationPage(PageCase):
         self.browser.execute_script(
             "document.querySelectorAll('#configuration details').forEach((d) => { d.open = true; })")
         self.type_into("demo-recipe.toml", "# by hand", "# by another hand")
-        self.press("Check and show the difference")
+        self.press_twice("Check and show the difference", "check_configuration")
         eventually("the difference", lambda: "another" in self.browser.text("#configuration pre"))
         self.expect_fits_its_width()
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)

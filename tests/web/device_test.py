@@ -4,6 +4,7 @@
 Folders: app/ports/web/device app/ports/web/page/files/system app/daemon/device app/cli/backup app/cli/support
 """
 
+import base64
 import json
 import pathlib
 import random
@@ -51,6 +52,14 @@ class InstalledAppliance(Appliance):
     def requests(self):
         """Number since the last restart."""
         return self.status()["web"]["requests"]
+
+    def upload_backup(self, content):
+        """Another client's upload of a backup."""
+        part = {"offset": 0, "bytes": base64.b64encode(content).decode()}
+        request = urllib.request.Request(f"{self.address}api/v1/upload_backup", json.dumps(part).encode(),
+                                         {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
+            return json.load(answer)["size"]
 
     def audited(self):
         with urllib.request.urlopen(f"{self.address}api/v1/audit", timeout=PATIENCE_S) as answer:
@@ -165,6 +174,60 @@ class DevicePage(PageCase):
             self.browser.refresh()
             eventually("the card", lambda: self.browser.find_elements(
                 By.CSS_SELECTOR, "#device > summary"))[0].click()
+
+    def restore_button(self):
+        return self.section(2).find_element(By.CSS_SELECTOR, "form button")
+
+    def is_offered(self):
+        """True: the checked contents are shown, to be restored."""
+        return self.section(2).find_element(By.CSS_SELECTOR, ":scope > div").is_displayed()
+
+    def test_backup_is_not_offered_after_a_change_of_the_form_meanwhile(self):
+        archive = self.save(1, "backup")
+        self.browser.hold_answers("api/v1/check_restore")
+        self.choose(archive)
+        eventually("it is checked", self.browser.held_answers)
+        self.assertFalse(self.restore_button().is_enabled(), "one check at a time")
+        self.section(2).find_element(By.NAME, "events").click()
+        self.browser.let_go()
+        eventually("another check can begin", lambda: self.restore_button().is_enabled())
+        self.assertFalse(self.is_offered())
+        self.restore_button().click()
+        eventually("what it changes", self.is_offered)
+        bodies = [json.loads(body) for _, body in self.browser.asked("api/v1/check_restore")]
+        self.assertEqual([body["events"] for body in bodies], [True, False])
+
+    def test_backup_that_another_client_uploaded_meanwhile_is_not_restored(self):
+        self.choose(self.save(1, "backup"))
+        eventually("what it changes", self.is_offered)
+        self.appliance.upload_backup(b"another backup")
+        self.section(2).find_element(By.CSS_SELECTOR, ":scope > div button").click()
+        self.browser.switch_to.alert.accept()
+        eventually("it is refused", lambda: "another backup was uploaded meanwhile" in self.said(2))
+
+    def test_backup_is_uploaded_no_further_after_another_file_is_chosen(self):
+        large, archive = self.saved / "large.zst", self.save(1, "backup")
+        large.write_bytes(bytes(300000))
+        self.browser.hold_answers("api/v1/upload_backup")
+        self.choose(large)
+        eventually("a part is sent", self.browser.held_answers)
+        self.section(2).find_element(By.NAME, "file").send_keys(str(archive))
+        self.browser.let_go()
+        eventually("another check can begin", lambda: self.restore_button().is_enabled())
+        self.assertEqual([json.loads(body)["offset"] for _, body in self.browser.asked("api/v1/upload_backup")], [0])
+        self.restore_button().click()
+        eventually("what it changes", self.is_offered)
+
+    def test_backup_that_cannot_be_read_any_more_is_refused(self):
+        gone = self.saved / "gone.zst"
+        gone.write_bytes(bytes(100000))
+        self.browser.hold_answers("api/v1/upload_backup")
+        self.choose(gone)
+        eventually("a part is sent", self.browser.held_answers)
+        gone.unlink()
+        self.browser.let_go()
+        eventually("it is refused", lambda: "gone.zst cannot be read" in self.said(2))
+        self.assertTrue(self.restore_button().is_enabled())
 
     def test_reset_needs_the_words_and_puts_the_delivered_configuration_back(self):
         self.appliance.note("# changed")

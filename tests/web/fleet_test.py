@@ -89,6 +89,15 @@ class FleetPage(PageCase):
               text: card.innerText, page: card.querySelector('a').href,
               seen: card.querySelector('img').naturalWidth}));""")
 
+    def expect_refusal_stays(self, forget):
+        self.browser.hold_answers("forget_appliances", "the disk is full")
+        forget.click()
+        eventually("it is asked for", self.browser.held_answers)
+        self.browser.let_go()
+        reads = len(self.browser.asked("api/v1/appliances"))
+        eventually("the list is read again", lambda: len(self.browser.asked("api/v1/appliances")) > reads + 1)
+        self.assertIn("the disk is full", self.browser.text("#fleet [role=alert]"))
+
     def test_all_appliances_are_listed_and_one_that_dies_is_marked(self):
         self.browser.look_for_barriers()
         other = Cell("cell 2")
@@ -100,7 +109,7 @@ class FleetPage(PageCase):
         self.assertIn("cell 1 <i>", cards[0]["text"])
         self.assertIn("(this appliance)", cards[0]["text"])
         self.assertIn("cell 2", cards[1]["text"])
-        self.assertIn("running", cards[1]["text"])
+        eventually("the state of the other one", lambda: "running" in self.cards()[1]["text"])
         self.assertIn("No alarm", cards[1]["text"])
         self.assertEqual(cards[1]["page"], f"https://127.0.0.1:{other.https_port}/")
         self.assertEqual([one["page"] for one in self.appliance.appliances()],
@@ -121,9 +130,11 @@ class FleetPage(PageCase):
         other.kill()
         forget = self.browser.find_element(By.CSS_SELECTOR, "#fleet button")
         eventually("it can be forgotten", forget.is_displayed)
+        self.expect_refusal_stays(forget)
         forget.click()
         eventually("it is forgotten", lambda: len(self.cards()) == 1)
         self.assertEqual(len(self.appliance.appliances()), 1)
+        eventually("no refusal is left", lambda: self.browser.text("#fleet [role=alert]") == "")
         self.assertEqual(self.browser.complaints(), [])
         other.start()
 

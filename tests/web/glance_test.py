@@ -12,6 +12,7 @@ import urllib.request
 from selenium.webdriver.common.by import By
 
 from appliance import ALARM_S, PATIENCE_S, eventually
+from browser import HOLD_DECODING, module_address
 from page_case import ZONE, PageCase
 
 # Levels of alarms that are not warnings, and states that need nobody, by proc/signals/alarm.h.
@@ -134,6 +135,62 @@ class Glance(PageCase):
         self.show_process(1440, 900)
         self.expect_local_times("history/alarms", "alarms", "#alarm-history")
 
+    def test_a_late_answer_does_not_replace_newer_events(self):
+        self.browser.ignore_policy()
+        self.show(1440, 900, "system")
+        names = self.browser.execute_async_script("""
+            const [module, done] = arguments, fetched = window.fetch, answers = [];
+            window.fetch = (address, ...more) => (address === 'api/v1/history/alarms'
+              ? new Promise((answer) => answers.push(answer)) : fetched(address, ...more));
+            const event = (name) => ({ name, time: '2026-01-01T00:00:00Z', event_text: '', level_text: '', value: 1,
+              limit: 1, unit: 'mm' });
+            const answer = (request, ...names) =>
+              answers[request](new Response(JSON.stringify({ alarms: names.map(event) })));
+            import(module).then(async ({ AlarmHistory }) => {
+              const history = new AlarmHistory(), reads = [5, 6].map((count) => history.refresh(count));
+              answer(1, 'first', 'second');
+              await reads[1];
+              answer(0, 'first');
+              await reads[0];
+              done([...history.body.rows].map(({ cells }) => cells[1].textContent));
+            }).catch((wrong) => done(String(wrong)));""", module_address("process/alarm_history.js"))
+        self.assertEqual(names, ["second", "first"])
+
+    def test_events_are_read_again_after_a_lost_connection(self):
+        self.show_process(1440, 900)
+        self.browser.silence_pipeline()  # the number of events stays the same
+        self.browser.hold_answers("nothing")
+        self.browser.execute_script("""
+            Object.defineProperty(document, 'hidden', { value: true, configurable: true });
+            document.dispatchEvent(new Event('visibilitychange')); // closes the stream
+            delete document.hidden;
+            document.dispatchEvent(new Event('visibilitychange'));""")
+        eventually("they are asked for", lambda: self.browser.asked("history/alarms"))
+
+    def test_a_picture_that_is_decoded_after_another_view_was_chosen_is_not_drawn(self):
+        self.browser.ignore_policy()
+        self.show(1440, 900, "system")
+        drawn = self.browser.execute_async_script(f"""{HOLD_DECODING}
+            const [module, done] = arguments, drawn = [];
+            const views = ['former', 'chosen'].map((name) => ({{ name, width: 8, height: 8 }}));
+            const recipe = Object.assign(new EventTarget(),
+              {{ stated: {{ number: 1, views }}, regions: [], removed: [] }});
+            import(module).then(({{ RegionEditor }}) => {{
+              const editor = new RegionEditor(recipe, {{ ofView: () => '' }}, false, () => {{}});
+              const send = (name, number) => editor.picture({{ head: {{ name, number, age_ms: 0 }}, body: '' }});
+              editor.freshness.drew = () => {{
+                drawn.push(editor.canvas.dataset.number);
+                if (drawn.at(-1) === '2') done(drawn);
+              }};
+              recipe.dispatchEvent(new Event('change'));
+              send('former', 1);
+              editor.view.value = 'chosen';
+              editor.view.dispatchEvent(new Event('change'));
+              send('chosen', 2);
+              release();
+            }}).catch((wrong) => done(String(wrong)));""", module_address("process/region_editor.js"))
+        self.assertEqual(drawn, ["2"])
+
     def expected_mark(self, alarms):
         """Class of the worst alarm that is active or not acknowledged."""
         levels = {level for alarm in alarms if alarm["state"] not in CALM_STATES
@@ -160,6 +217,31 @@ class Glance(PageCase):
             return line && getComputedStyle(line).stroke;""")
         red, _, blue = (int(part) for part in re.findall(r"\d+", colour))
         self.assertGreater(red, blue + 80)
+
+    def test_a_silent_pipeline_draws_no_values(self):
+        self.show_process(1440, 900)
+        eventually("a value", lambda: re.search(r"\d", self.browser.text("[data-region=pool] .read .first")))
+        self.browser.silence_pipeline()
+        eventually("no values in key figures and charts", lambda: self.browser.execute_script("""
+            const texts = (selector) => [...document.querySelectorAll(selector)].map(({ textContent }) => textContent);
+            return texts('.key .value').every((text) => text === '–')
+              && texts('#charts .read .first').every((text) => text.endsWith('–'))
+              && document.querySelectorAll('#regions .warning, #regions .alarm').length === 0;"""))
+        self.assertIn("stale", self.browser.find_element(By.TAG_NAME, "body").get_attribute("class"))
+        self.browser.keep_picture("glance-silent")
+
+
+class GlanceByRole(PageCase):
+    def test_only_roles_that_may_acknowledge_are_offered_it(self):
+        self.add_users("viewer", "operator")
+        for role in ("viewer", "operator"):
+            for path in ("#/process", "operator"):
+                with self.subTest(role=role, path=path):
+                    self.log_in_as(role, path)
+                    eventually("alarms", lambda: self.browser.find_elements(By.CSS_SELECTOR, "#alarms li"))
+                    buttons = self.browser.find_elements(By.CSS_SELECTOR, "#alarms button")
+                    self.assertEqual(len(buttons), 0 if role == "viewer" else 1 + len(
+                        self.browser.find_elements(By.CSS_SELECTOR, "#alarms li")))
 
 
 if __name__ == "__main__":

@@ -33,6 +33,19 @@ TABLE_DEGC = (35, 42)  # table of the simulated machine: 40, its slots 37, and n
 YAW, PITCH, H_FOV, WIDTH, HEIGHT = -115, -40, 80, 320, 240
 ON_THE_TABLE = (-220, 60, TABLE_TOP)  # beside workpiece and nozzle
 
+# The next request for a pixel is never answered; giveUp() lets its time limit pass.
+HANG_ONCE = """
+    const { fetch } = window, { timeout } = AbortSignal, limit = new AbortController();
+    AbortSignal.timeout = () => limit.signal;
+    window.fetch = (address, options) => {
+      if (!String(address).startsWith('api/v1/live/pixel')) return fetch(address, options);
+      Object.assign(window, { fetch, giveUp() {
+        AbortSignal.timeout = timeout;
+        limit.abort();
+      } });
+      return new Promise((_, fail) => options?.signal.addEventListener('abort', () => fail(options.signal.reason)));
+    };"""
+
 
 def pixel_of(point):
     """Pixel at which "heat" shows a point of the machine."""
@@ -69,7 +82,7 @@ range = [15, 60]
 """)
 
 
-class Live(PageCase):
+class LiveCase(PageCase):
     make_appliance = staticmethod(MixingAppliance)
 
     def open(self):
@@ -96,16 +109,39 @@ class Live(PageCase):
     def unlock(self, view):
         self.tile(view).find_element(By.CLASS_NAME, "locked").click()
 
+    def get(self, path):
+        with urllib.request.urlopen(self.appliance.address + path, timeout=PATIENCE_S) as answer:
+            return json.load(answer)
+
+    def view(self, name):
+        return next(view for view in self.get("api/v1/views")["views"] if view["name"] == name)
+
+    def expect_aim(self, view, yaw, pitch, h_fov):
+        def aims():
+            aim = self.view(view)["aim"]
+            return all(abs(aim[name] - value) < 0.2 for name, value in
+                       [("yaw", yaw), ("pitch", pitch), ("h_fov", h_fov)])
+        eventually(f"{view} looks to {yaw:.2f}, {pitch:.2f}, {h_fov:.2f} wide", aims)
+
+    def command(self, name, **arguments):
+        """Returns status and answer."""
+        request = urllib.request.Request(
+            f"{self.appliance.address}api/v1/command/{name}", json.dumps(arguments).encode(),
+            {"Content-Type": "application/json"})
+        try:
+            with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
+                return answer.status, json.load(answer)
+        except urllib.error.HTTPError as error:
+            return error.code, json.load(error)
+
+
+class Live(LiveCase):
     def reading(self, view):
         """Reading of a pixel on the tile, with its place: {text, u, v, number}, or null without
         one."""
         return self.browser.execute_script("""
             const { textContent: text, dataset } = arguments[0].querySelector('.reading');
             return dataset.number ? { text, ...dataset } : null;""", self.tile(view))
-
-    def get(self, path):
-        with urllib.request.urlopen(self.appliance.address + path, timeout=PATIENCE_S) as answer:
-            return json.load(answer)
 
     def read_with_the_interface(self, view):
         """Reading on the page, and the interface's values for the same pixel of the same
@@ -174,14 +210,28 @@ class Live(PageCase):
         self.browser.keep_picture("pointing")
         self.assertEqual(self.browser.complaints(), [])
 
+    def test_a_pixel_that_is_never_answered_does_not_stop_the_next_one(self):
+        self.open()
+        canvas = self.canvas("heat")
+        self.browser.execute_script(HANG_ONCE)
+        ActionChains(self.browser).move_to_element(canvas).perform()
+        eventually("it is asked for", lambda: self.browser.execute_script("return 'giveUp' in window"))
+        self.browser.execute_script("giveUp()")
+        eventually("the next one is answered", lambda: self.reading("heat"))
+
     def test_keys_move_a_crosshair(self):
         self.open()
         canvas = self.canvas("heat")
         self.browser.execute_script("arguments[0].focus()", canvas)
         ActionChains(self.browser).send_keys(
             Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ARROW_DOWN).perform()
+
+        def has_read_the_last_place():
+            said = self.reading("heat")
+            return said and (said["u"], said["v"]) == ("174", "127")
+
+        eventually("the last place is read", has_read_the_last_place)
         said, known = self.read_with_the_interface("heat")
-        self.assertEqual((said["u"], said["v"]), ("174", "127"))
         self.assertIn(f"yaw {known['yaw']:.2f}°", said["text"])
         mark = self.tile("heat").find_element(By.CLASS_NAME, "crosshair")
         self.assertTrue(mark.is_displayed())
@@ -189,27 +239,6 @@ class Live(PageCase):
         ActionChains(self.browser).send_keys(Keys.ESCAPE).perform()
         self.assertFalse(mark.is_displayed())
         self.assertEqual(self.browser.complaints(), [])
-
-    def view(self, name):
-        return next(view for view in self.get("api/v1/views")["views"] if view["name"] == name)
-
-    def expect_aim(self, view, yaw, pitch, h_fov):
-        def aims():
-            aim = self.view(view)["aim"]
-            return all(abs(aim[name] - value) < 0.2 for name, value in
-                       [("yaw", yaw), ("pitch", pitch), ("h_fov", h_fov)])
-        eventually(f"{view} looks to {yaw:.2f}, {pitch:.2f}, {h_fov:.2f} wide", aims)
-
-    def command(self, name, **arguments):
-        """Returns status and answer."""
-        request = urllib.request.Request(
-            f"{self.appliance.address}api/v1/command/{name}", json.dumps(arguments).encode(),
-            {"Content-Type": "application/json"})
-        try:
-            with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
-                return answer.status, json.load(answer)
-        except urllib.error.HTTPError as error:
-            return error.code, json.load(error)
 
     def test_hand_wheel_and_keys_turn_a_view(self):
         self.open()
@@ -368,6 +397,98 @@ class Live(PageCase):
         blue, green, red = (ramp[:, channel].argmax() for channel in range(3))
         self.assertTrue(blue < green < red, (blue, green, red))
         self.assertEqual(self.browser.complaints(), [])
+
+
+class ChangedViews(LiveCase):
+    """The appliance restarts with other views while the page is open."""
+
+    FIRST = '''[[view]]
+name = "first"
+yaw = 171
+h_fov = 60
+width = 320
+height = 240
+[[view.source]]
+camera = "colour"
+
+'''
+
+    def setUp(self):
+        super().setUp()
+        self.site = self.appliance.folder / "demo.toml"
+        self.before = self.site.read_text(encoding="utf-8")
+        self.addCleanup(self.restart_with, self.before)
+        self.open()
+
+    def restart_with(self, site):
+        self.appliance.stop()
+        self.site.write_text(site, encoding="utf-8")
+        self.appliance.start()
+
+    def named(self):
+        """Names of the tiles, and those that can be chosen."""
+        return self.browser.execute_script("""
+            const texts = (selector) => [...document.querySelectorAll(selector)]
+              .map(({ textContent }) => textContent.trim());
+            return [texts('#tiles figure strong'), texts('#live fieldset label')];""")
+
+    def expect_all_views(self):
+        names = [view["name"] for view in self.get("api/v1/views")["views"]]
+        eventually(f"tiles and choices of {names}", lambda: self.named() == [names, names])
+        before = self.browser.picture_numbers()
+        eventually("pictures", lambda: all(number not in (0, before[name])
+                                           for name, number in self.browser.picture_numbers().items()))
+        eventually("the state", lambda: self.browser.text("#condition").startswith("running"))
+        return names
+
+    def test_tiles_are_those_of_the_restarted_appliance(self):
+        self.assertIn("both", self.expect_all_views())
+        self.restart_with(self.before.replace('name = "both"', 'name = "mixed"'))
+        names = self.expect_all_views()
+        self.assertIn("mixed", names)
+        self.restart_with(self.before.replace("[[view]]", f"{self.FIRST}[[view]]", 1))
+        self.assertEqual(self.expect_all_views()[0], "first")
+
+    def test_the_form_of_colours_stays_open_over_a_restart(self):
+        tile = self.tile("heat")
+        self.browser.execute_script("arguments[0].querySelector('.colours').open = true", tile)
+        field = tile.find_element(By.NAME, "first")
+        self.restart_with(f"{self.before}\n{self.FIRST}")
+        eventually("the views are known", lambda: (added := self.tile("first"))
+                   and added.find_element(By.CLASS_NAME, "locked").is_displayed())
+        self.assertTrue(field.is_displayed())
+
+    def test_a_page_that_was_hidden_over_a_restart_commands_the_view_that_is_shown(self):
+        index = self.view("heat")["index"]
+        self.hide_for_a_while(lambda: self.restart_with(self.before.replace("[[view]]", f"{self.FIRST}[[view]]", 1)))
+        moved = self.view("heat")["index"]
+        self.assertGreater(moved, index)
+        eventually("the views are known", lambda: (tile := self.tile("first"))
+                   and tile.find_element(By.CLASS_NAME, "locked").is_displayed())
+        self.command("point_view", view=moved, yaw=10, pitch=5, h_fov=60)
+        self.expect_aim("heat", 10, 5, 60)
+        self.tile("heat").find_element(By.CLASS_NAME, "back").click()
+        self.expect_aim("heat", YAW, PITCH, H_FOV)
+
+
+class SingleStream(Appliance):
+    def __init__(self):
+        super().__init__()
+        site = self.folder / "demo.toml"
+        site.write_text(site.read_text(encoding="utf-8").replace("[web]\n", "[web]\nmax_streams = 1\n"),
+                        encoding="utf-8")
+
+
+class NoFreeStream(PageCase):
+    make_appliance = staticmethod(SingleStream)
+
+    def test_the_page_states_why_it_receives_nothing(self):
+        with urllib.request.urlopen(f"{self.appliance.address}api/v1/live", timeout=PATIENCE_S) as other:
+            other.readline()
+            self.browser.get(self.appliance.address)
+            eventually("the reason", lambda: self.browser.text("#condition")
+                       == "Refused: all streams are in use; raise max_streams of [web]")
+        eventually("the state", lambda: self.browser.text("#condition").startswith("running"))
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 from appliance import PATIENCE_S, Appliance, eventually
+from browser import HOLD_DECODING, module_address
 from page_case import PageCase
 from rendered_machine import PICTURES, RenderedMachine
 
@@ -234,6 +235,78 @@ class WithoutAView(LookingAround):
         self.browser.keep_picture("look-demo")
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "GPU stall due to ReadPixels" not in entry["message"]], [])
+
+    def test_a_picture_that_is_decoded_after_another_view_was_chosen_is_not_drawn(self):
+        self.browser.ignore_policy()
+        self.browser.get(f"{self.appliance.address}#/system")
+        drawn = self.browser.execute_async_script(f"""{HOLD_DECODING}
+            const [module, done] = arguments, drawn = [];
+            import(module).then(({{ ServerLook }}) => {{
+              const look = new ServerLook(document.createElement('canvas'), {{}}, () => {{}}, ({{ name }}) => {{
+                drawn.push(name);
+                if (name === 'chosen') done(drawn);
+              }});
+              const send = (name) => look.picture({{ head: {{ name }}, body: '' }});
+              look.offer(['former', 'chosen'].map((name, index) => ({{ name, index }})));
+              send('former');
+              look.choice.value = 'chosen';
+              send('chosen');
+              release();
+            }}).catch((wrong) => done(String(wrong)));""", module_address("look/server_look.js"))
+        self.assertEqual(drawn, ["chosen"])
+
+
+class RenamedBall(LookingAround):
+    """The demo with a view of kind ball, which a restart renames."""
+
+    @classmethod
+    def make_appliance(cls):
+        appliance = Appliance()
+        appliance.add_ball_view(500)
+        return appliance
+
+    def test_a_renamed_ball_is_drawn_by_its_new_name(self):
+        self.open()
+        self.choose(second="")
+        self.appliance.stop()
+        last = self.canvas.get_dom_attribute("data-number")
+        site = self.appliance.folder / "demo.toml"
+        site.write_text(site.read_text(encoding="utf-8").replace('"whole"', '"room"'), encoding="utf-8")
+        self.appliance.start()
+        eventually("the new name", lambda: self.browser.execute_script(
+            "return document.querySelector('#look [name=first]').value") == "room")
+        eventually("its pictures", lambda: self.canvas.get_dom_attribute("data-number") != last)
+        eventually("the state", lambda: self.browser.text("#condition").startswith("running"))
+
+
+class UnpluggedCamera(LookingAround):
+    """The thermal camera is unplugged after some frames, and stays so."""
+
+    @classmethod
+    def make_appliance(cls):
+        appliance = Appliance()
+        appliance.unplug("thermal")
+        return appliance
+
+    def veil(self):
+        """True if the picture is veiled, and the text over it."""
+        return self.browser.execute_script("""
+            const seen = document.querySelector('#look .picture');
+            return [seen.classList.contains('veiled'), seen.querySelector('.overlay').textContent];""")
+
+    def test_only_faults_of_shown_cameras_veil_the_picture(self):
+        self.open()
+        eventually("the fault", lambda: "degraded" in self.browser.text("#condition"))
+        eventually("a veil over both that names the fault",
+                   lambda: (veil := self.veil())[0] and "thermal: camera is not connected" in veil[1])
+        self.choose(second="")
+        eventually("no veil over the colour camera alone", lambda: self.veil() == [False, ""])
+        self.choose(first="ball:thermal")
+        eventually("a veil over the thermal one", lambda: "thermal: camera is not connected" in self.veil()[1])
+        self.assertNotIn("colour", self.veil()[1])
+        self.choose(first="ball:colour")
+        eventually("no veil over the colour camera", lambda: self.veil() == [False, ""])
+        self.browser.keep_picture("look-one-camera")
 
 
 if __name__ == "__main__":

@@ -12,6 +12,19 @@ from appliance import ALARM_S, Appliance, eventually
 from browser import Browser
 
 ZONE = "Australia/Eucla"  # 8:45 h ahead of UTC
+PASSWORD = "correct horse battery"  # of the users that add_users() creates
+
+# Creates an administrator, then a user of each of these roles, who is named like it.
+ADD_USERS = """
+    const [password, roles, done] = arguments;
+    const post = (path, body) => fetch(`/api/v1/${path}`, { method: 'POST', body: JSON.stringify(body),
+      headers: { 'Content-Type': 'application/json', 'X-Orbwatch': 'test' } });
+    (async () => {
+      await post('set_user', { user: 'admin', role: 'administrator', password });
+      await post('login', { user: 'admin', password });
+      for (const role of roles) await post('set_user', { user: role, role, password });
+      await post('logout', {});
+    })().then(done);"""
 
 
 class PageCase(unittest.TestCase):
@@ -46,10 +59,33 @@ class PageCase(unittest.TestCase):
     def fill_access(self, **values):
         """Sends the form for names, passwords and the first code, once it has these fields."""
         for name, value in values.items():
-            field = eventually(name, lambda name=name: self.access_fields(name))[0]
+            field = eventually(lambda name=name: f"the field {name}; instead {self.browser.state()}",
+                               lambda name=name: self.access_fields(name))[0]
             field.clear()
             field.send_keys(value)
         self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
+
+    def add_users(self, *roles):
+        """Users named like their roles, and an administrator, of an appliance without users."""
+        self.browser.get(self.appliance.address)
+        self.browser.execute_async_script(ADD_USERS, PASSWORD, roles)
+
+    def log_in_as(self, role, path):
+        """Opens a page as a user of add_users()."""
+        self.browser.delete_all_cookies()
+        self.browser.get("about:blank")
+        self.browser.get(f"{self.appliance.address}{path}")
+        self.fill_access(user=role, password=PASSWORD)
+        eventually("the page says who it is", lambda: role in self.browser.text("#account"))
+
+    def hide_for_a_while(self, meanwhile=lambda: None):
+        """Shows another tab until the page has closed its stream and `meanwhile` has returned."""
+        [page] = self.browser.window_handles
+        self.browser.switch_to.new_window("tab")
+        eventually("no stream is open", lambda: self.appliance.status()["web"]["streams"] == 0)
+        meanwhile()
+        self.browser.close()
+        self.browser.switch_to.window(page)
 
     def expect_no_barriers(self, show):
         """Checks in light and in dark. `show` brings the page to the state to be checked."""

@@ -10,6 +10,7 @@ import cv2
 import numpy
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
+from selenium.webdriver.support.select import Select
 
 from align_case import AlignCase
 from appliance import eventually
@@ -70,6 +71,39 @@ class Place(AlignCase):
         self.press("Corner at -600.0, -500.0, 0.0")
         eventually("it is marked", lambda: [tuple(one["point"]) for one in self.camera()["points"]] ==
                    self.POINTS[:1])
+        self.expect_no_complaint()
+
+    def test_coordinates_are_written_as_in_the_page_s_language(self):
+        self.open("colour")
+        Select(self.browser.find_element(By.ID, "language")).select_by_value("de")
+        eventually("German", lambda: self.browser.text("#align-title") == "Ausrichten")
+        eventually("a picture", lambda: self.browser.text("#align .ball .age").endswith("alt"))
+        self.open_step("place")
+        self.pointer_at(*self.pixels()[0]).click().perform()
+        self.assertIn("Ecke bei -600,0; -500,0; 0,0", self.browser.text("#place"))
+        self.expect_no_complaint()
+
+    def typed(self):
+        return [self.browser.find_element(By.CSS_SELECTOR, f"#point [name={name}]").get_property("value")
+                for name in "uvxyz"]
+
+    def test_the_next_point_that_is_begun_while_one_is_added_stays(self):
+        self.open("colour")
+        self.open_step("place")
+        self.fill("#point", u=300, v=310, x=1, y=2, z=3)
+        self.browser.hold_answers("command/mark_point")
+        self.press("Add the point")
+        eventually("its answer waits", lambda: self.browser.held_answers() == 1)
+        self.addCleanup(self.answer, "api/v1/command/forget_points", {"camera": 0})
+        self.fill("#point", u=400, v=410, x=4)
+        # The page empties it at the end of the command, and judges the form in the same step.
+        self.browser.execute_script("document.querySelector('#align [role=alert]').textContent = 'an earlier refusal'")
+        self.browser.let_go()
+        eventually("the point is added", lambda: self.browser.text("#align [role=alert]") == "")
+        self.assertEqual(self.typed(), ["400", "410", "4", "2", "3"])
+        self.press("Add the point")
+        eventually("nothing is left of a point that was added", lambda: self.typed() == [""] * 5)
+        self.assertEqual([one["point"] for one in self.camera()["points"][-2:]], [[1, 2, 3], [4, 2, 3]])
         self.expect_no_complaint()
 
     def test_a_loupe_shows_the_picture_under_the_pointer(self):

@@ -5,59 +5,25 @@ Folders: app/ports/web/process app/ports/web/page/files/process app/files
 """
 
 import difflib
-import json
 import tomllib
 import unittest
-import urllib.request
 
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.select import Select
 
-from appliance import PATIENCE_S, eventually
-from configuration_test import Configured
-from page_case import PageCase
+from appliance import eventually
+from process_case import ProcessCase
 
 
-class RecipeOnThePage(PageCase):
-    @classmethod
-    def make_appliance(cls):
-        return Configured()
-
-    def setUp(self):
-        super().setUp()
-        self.before = self.appliance.recipe.read_bytes()
-        self.browser.get(f"{self.appliance.address}#/process")
-        eventually("regions over a picture", lambda: self.browser.execute_script(
-            "return document.querySelectorAll('#regions polyline').length > 1"
-            " && document.querySelector('#regions canvas').dataset.number"))
-        self.find("#regions summary").click()
-        eventually("handles", lambda: self.browser.find_elements(By.CSS_SELECTOR, "#regions [data-corner]"))
-
-    def recipe(self):
-        """Recipe in force, from the interface."""
-        with urllib.request.urlopen(self.appliance.address + "api/v1/recipe",
-                                    timeout=PATIENCE_S) as answer:
-            return json.load(answer)
-
+class RecipeOnThePage(ProcessCase):
     def region(self, name):
         return next(one for one in self.recipe()["regions"] if one["name"] == name)
 
-    def find(self, selector):
-        element = self.browser.find_element(By.CSS_SELECTOR, selector)
-        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
-        return element
-
-    def press(self, label, part="recipe"):
-        self.find(f"#{part}").find_element(By.XPATH, f".//button[text()='{label}']").click()
-
-    def said(self):
-        return self.browser.text("#recipe [role=status]")
-
     def drag_a_limit(self):
         """Drags the high warning of the width upwards; returns its new value on the page."""
-        Select(self.find("[data-region=pool] [name=signal]")).select_by_value("hot_spot_width")
+        self.choose_signal("pool", "hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
         self.find("[data-region=pool] .plot")
@@ -79,7 +45,7 @@ class RecipeOnThePage(PageCase):
         return value if value > above else None
 
     def test_a_limit_grips_on_its_whole_length(self):
-        Select(self.find("[data-region=pool] [name=signal]")).select_by_value("hot_spot_width")
+        self.choose_signal("pool", "hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
         self.find("[data-region=pool] .plot")
@@ -100,21 +66,21 @@ class RecipeOnThePage(PageCase):
         self.assertIn("1 high_warning", shares)
         self.assertGreater(min(shares.values()), 0.99, shares)
 
-    def shown(self, limit):
-        return float(self.find(f"[data-region=pool] .limits [name={limit}]").get_property("value"))
-
     def move_a_corner(self):
         """Moves the pool's first corner by keys."""
         Select(self.find("#regions [name=region]")).select_by_value("pool")
         corner = self.find("#regions [data-corner='0']")
         corner.send_keys(Keys.SHIFT + Keys.ARROW_LEFT)
-        eventually("it is settled", lambda: self.browser.execute_script(
-            "return !document.querySelector('#recipe > button').disabled"))
+        eventually("it is settled", self.has_unsent)
+
+    def name_a_region(self, name):
+        """Adds a region in the middle of the view."""
+        for field, value in (("name", name), ("threshold", "900")):
+            self.find(f"#regions form [name={field}]").send_keys(value)
+        self.find("#regions form button").click()
 
     def draw_a_region(self):
-        for name, value in (("name", "seam"), ("threshold", "900")):
-            self.find(f"#regions form [name={name}]").send_keys(value)
-        self.find("#regions form button").click()
+        self.name_a_region("seam")
         eventually("it is there", lambda: self.find(
             "#regions [name=region]").get_property("value") == "seam")
         picture = self.find("#regions svg")
@@ -161,7 +127,7 @@ class RecipeOnThePage(PageCase):
 
     def test_a_signal_without_an_alarm_gets_limits(self):
         checksum, before = self.appliance.checksum(), self.recipe()["alarms"]
-        Select(self.find("[data-region=surroundings] [name=signal]")).select_by_value("spatter_rate")
+        self.choose_signal("surroundings", "spatter_rate")
         self.find("[data-region=surroundings]").find_element(By.XPATH, ".//button[text()='+ limit']").click()
         for name, value in (("high_warning", "500"), ("high_alarm", "900")):
             self.find(f"[data-region=surroundings] .limits [name={name}]").send_keys(value, Keys.TAB)
@@ -179,20 +145,128 @@ class RecipeOnThePage(PageCase):
                               "high_alarm": 900, "low_warning": None}.items(), added.items())
         eventually("its key figure", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-key='surroundings spatter_rate']"))
+        eventually("the page can end it", lambda: "is reverted in" in self.browser.text("#recipe [role=timer]"))
         self.press("Revert now")
         eventually("the old recipe runs", lambda: self.appliance.says(lambda: self.appliance.checksum() == checksum))
         self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
+
+    def try_out(self):
+        """Begins a trial that the page can end."""
+        checksum = self.appliance.checksum()
+        self.press("Try out")
+        self.expect_trial(checksum)
+
+    def expect_trial(self, checksum):
+        """Waits for a trial that the page can end, of another configuration than that of the checksum."""
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != checksum and self.appliance.configuration()["trial"]))
+        eventually("the page can end it", lambda: "is reverted in" in self.browser.text("#recipe [role=timer]"))
+
+    def test_changes_come_back_after_a_trial_that_is_not_kept(self):
+        checksum = self.appliance.checksum()
+        self.choose_signal("pool", "hot_spot_width")
+        self.type_limit("high_warning", 27.5)
+        self.draw_a_region()
+        self.try_out()
+        eventually("the new region is measured", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-region=seam]"))
+        self.assertFalse(self.has_unsent(), "they are on trial")
+        self.press("Revert now")
+        eventually("the old recipe runs", lambda: self.appliance.says(lambda: self.appliance.checksum() == checksum))
+        eventually("the changes are back", self.has_unsent)
+        self.assertEqual(self.region_names(), ["pool", "surroundings", "seam"])
+        eventually("charts of the old recipe", lambda: not self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-region=seam]"))
+        self.choose_signal("pool", "hot_spot_width")
+        self.assertEqual(self.shown("high_warning"), 27.5)
+        self.press("Check and show the difference")
+        eventually("they can be sent again", lambda: all(
+            line in self.browser.text("#recipe pre") for line in ('+name = "seam"', "+high_warning = 27.5")))
+        self.press("Discard the changes")
+        self.assertFalse(self.has_unsent())
+        self.assertEqual(self.region_names(), ["pool", "surroundings"])
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
+
+    def test_a_limit_that_is_changed_while_another_one_is_sent_is_not_on_trial(self):
+        checksum = self.appliance.checksum()
+        self.choose_signal("pool", "hot_spot_width")
+        self.type_limit("high_warning", 27.5)
+        self.browser.execute_script("""
+            [...document.querySelectorAll('#recipe button')].find((one) => one.textContent === 'Try out').click();
+            const field = document.querySelector('[data-region=pool] .limits [name=low_warning]');
+            field.value = 8;
+            field.dispatchEvent(new Event('change'));""")
+        self.expect_trial(checksum)
+        self.assertTrue(self.has_unsent())
+        self.press("Revert now")
+        eventually("the old recipe runs", lambda: self.appliance.says(lambda: self.appliance.checksum() == checksum))
+        eventually("both limits", lambda: self.browser.execute_script("""
+            return ['low_warning', 'high_warning'].map((limit) =>
+              document.querySelector(`[data-region=pool] .limits [name=${limit}]`)?.value);""") == ["8", "27.5"])
+        self.assertTrue(self.has_unsent())
+
+    def move_without_an_answer(self, requests):
+        """Moves the first corner by keys; returns when the page has asked for so many coordinates, which are held."""
+        self.find("#regions [data-corner='0']").send_keys(Keys.SHIFT + Keys.ARROW_LEFT)
+        eventually("it is asked for", lambda: self.browser.held_answers() == requests)
+
+    def let_all_go(self):
+        """Passes on what is held; returns when the page has read it."""
+        self.browser.let_go()
+        self.browser.execute_async_script("fetch('api/v1/recipe').then((answer) => answer.text()).then(arguments[0])")
+
+    def test_the_newest_corners_count_in_whichever_order_their_coordinates_come(self):
+        before = self.corners()
+        self.browser.hold_answers("recipe/polygon")
+        self.move_without_an_answer(1)
+        self.move_without_an_answer(2)
+        self.browser.execute_script("window.answers.held.reverse()")
+        self.let_all_go()
+        eventually("they are there", self.has_unsent)
+        moved = self.corners()
+        self.assertAlmostEqual(moved[0][0], before[0][0] - 20)
+        self.assertEqual(moved[1:], before[1:])
+
+    def test_coordinates_that_come_after_the_changes_were_discarded_change_nothing(self):
+        before = self.corners()
+        self.choose_signal("pool", "hot_spot_width")
+        self.type_limit("high_warning", 27.5)
+        self.browser.hold_answers("recipe/polygon")
+        self.move_without_an_answer(1)
+        self.press("Discard the changes")
+        self.let_all_go()
+        eventually("the shape is the recipe's again", lambda: self.corners() == before)
+        self.assertFalse(self.has_unsent())
+
+    def test_a_region_that_is_pressed_does_not_get_the_corners_of_another_one(self):
+        pool = self.corners()
+        self.name_a_region("seam")
+        choice = Select(self.find("#regions [name=region]"))
+        eventually("it is there", lambda: self.find("#regions [name=region]").get_property("value") == "seam")
+        seam = self.corners()
+        choice.select_by_value("pool")
+        self.browser.hold_answers("recipe/polygon")
+        self.move_without_an_answer(1)
+        choice.select_by_value("seam")
+        self.find("#regions [data-corner='0']").click()
+        self.let_all_go()
+        self.assertEqual(self.corners(), seam)
+        choice.select_by_value("pool")
+        self.assertEqual(self.corners(), [[pool[0][0] - 10, pool[0][1]], *pool[1:]])
+
+    def test_a_deleted_region_is_not_added_again_by_its_name(self):
+        self.delete_a_region()
+        self.name_a_region("surroundings")
+        eventually("it is refused", lambda: self.browser.text("#regions [role=alert]") ==
+                   "Refused: region surroundings is being deleted; keep that change first, or choose another name")
+        self.assertEqual(self.region_names(), ["pool"])
+        self.press("Discard the changes")
+        self.assertEqual(self.region_names(), ["pool", "surroundings"])
 
     def configured(self):
         """The site file, and its recipes by number."""
         site = (self.appliance.folder / "demo.toml").read_text(encoding="utf-8")
         return site, {one["number"]: one["file"] for one in tomllib.loads(site)["recipe"]}
-
-    def type_copy(self, name, number):
-        for field, value in (("copy", name), ("number", str(number))):
-            shown = self.find(f"#recipe-copy [name={field}]")
-            shown.clear()
-            shown.send_keys(value)
 
     def test_a_copy_becomes_a_recipe_of_its_own(self):
         site, recipes = self.configured()
@@ -202,7 +276,7 @@ class RecipeOnThePage(PageCase):
             self.type_copy(name, number)
             self.press("Check and show the difference")
             eventually(why, lambda why=why: why in self.said())
-        Select(self.find("[data-region=surroundings] [name=signal]")).select_by_value("spatter_rate")
+        self.choose_signal("surroundings", "spatter_rate")
         self.find("[data-region=surroundings]").find_element(By.XPATH, ".//button[text()='+ limit']").click()
         self.find("[data-region=surroundings] .limits [name=high_alarm]").send_keys("900", Keys.TAB)
         self.type_copy("thin", 2)
@@ -257,6 +331,9 @@ class RecipeOnThePage(PageCase):
         self.press("Keep it")
         eventually("the file is written",
                    lambda: self.appliance.recipe.read_bytes() != self.before)
+        eventually("the page says so, too", lambda: "files" in self.said())
+        self.assertFalse(self.has_unsent())
+        self.assertEqual(self.region_names(), ["pool", "seam"])
 
         gone, new = self.difference()
         self.assertEqual([line.split(" ")[0] for line in gone[:2]], ["points", "high_warning"])

@@ -1,101 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Events that the recorder keeps, listed, shown, saved, exported, pinned and deleted on Recordings.
+"""Events that the recorder keeps, listed, searched, shown, saved, pinned and deleted on Recordings.
 
 Folders: app/ports/web/page/files/recordings app/ports/web/recordings app/ports/recorder
 """
 
 import json
-import pathlib
-import re
 import shutil
-import tempfile
 import unittest
-import urllib.error
-import urllib.parse
 import urllib.request
 
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
-from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
-from appliance import PATIENCE_S, Appliance, eventually
-from page_case import PageCase
+from appliance import PATIENCE_S, eventually
+from recordings_case import RecordingsCase
 
-EVENTS = """
-[recorder]
-folder = "recordings"
-reserve_mib = 16
-[recorder.events]
-ring_mib = 64
-before_s = 0.5
-after_s = 0.5
-longest_s = 2
-on_alarm = false
-on_lines = ["button"]
-
-[[line]]  # its pulses are shorter than the time between frame sets
-name = "pusher"
-use = "trigger_out"
-back_end = "simulated"
-line_name = "wire"
-width_us = 500
-
-[[line]]
-name = "button"
-use = "process_input"
-back_end = "simulated"
-line_name = "wire"
-"""
+# Parts of the summary of an event with an alarm; the rest does not matter.
+SUMMARY = {"trigger": "alarm", "text": "pool: hot_spot_width raised, high alarm, 27.25 mm",
+           "first": "2026-01-01T00:00:00Z", "triggered": "2026-01-01T00:00:01Z", "last": "2026-01-01T00:00:02Z",
+           "frame_set": 1, "recipe": 1, "part": None, "layer": None, "pictures": {}, "lost": 0, "has_beginning": True,
+           "is_interrupted": False, "versions": {}}
+ALARM = {"region": "pool", "signal": "hot_spot_width", "level": 4, "value": 27.25, "unit": "mm"}
 
 
-STRICT_RECIPE = """
-[[recipe]]
-number = 2
-file = "strict-recipe.toml"
-"""
-# Limits of the pool's width that it always exceeds, at once.
-STRICT = (("low_warning = 9 ", "low_warning = 0.1 "), ("high_warning = 26", "high_warning = 2"),
-          ("on_delay = 0.5", "on_delay = 0"))
-
-
-class RecordingAppliance(Appliance):
-    def __init__(self):
-        super().__init__()
-        file = self.folder / "demo.toml"
-        file.write_text(file.read_text(encoding="utf-8") + EVENTS + STRICT_RECIPE, encoding="utf-8")
-        recipe = (self.folder / "demo-recipe.toml").read_text(encoding="utf-8")
-        for before, after in (*STRICT, ('name = "cladding"', 'name = "strict"')):
-            assert before in recipe, "the demo's recipe has changed"
-            recipe = recipe.replace(before, after, 1)
-        (self.folder / "strict-recipe.toml").write_text(recipe, encoding="utf-8")
-
-
-class Recordings(PageCase):
-    @classmethod
-    def make_appliance(cls):
-        return RecordingAppliance()
-
-    def events(self):
-        with urllib.request.urlopen(f"{self.appliance.address}api/v1/recordings", timeout=PATIENCE_S) as answer:
-            return json.load(answer)["events"]
-
-    def shown(self):
-        """Causes of the events that are listed."""
-        return self.browser.execute_script(
-            "return [...document.querySelectorAll('#events h3')].map(({ textContent }) => textContent)")
-
-    def press(self, label):
-        """Presses a button once the page enables it."""
-        path = f"//*[@id='recordings']//button[text()='{label}' and not(@disabled)]"
-        eventually(f"{label} can be pressed", lambda: self.browser.find_elements(By.XPATH, path))[0].click()
-
-    def record(self):
-        before = len(self.events())
-        self.press("Record what happens now")
-        return eventually("it is recorded", lambda: [
-            one for one in self.events() if len(self.events()) > before and one["is_finished"]])[0]
-
+class Recordings(RecordingsCase):
     def filter_by_kind(self, text):
         """Chooses a cause as people do; the driver's own choice has no input event."""
         self.browser.execute_script(
@@ -103,52 +31,12 @@ class Recordings(PageCase):
             "kind.value = [...kind.options].find((option) => option.text === arguments[0]).value;"
             "kind.dispatchEvent(new Event('input', { bubbles: true }))", text)
 
-    def viewed(self):
-        """Number of the picture that is shown, number of all, and its width."""
-        text = self.browser.text("#viewer output").split(",")[0]
-        number, count = text.split(" of ") if " of " in text else (0, 0)
-        return int(number), int(count), self.browser.execute_script(
-            "const seen = document.querySelector('#viewer img');"
-            "return seen.complete && seen.src.endsWith(`frame=${arguments[0]}`) ? seen.naturalWidth : 0",
-            int(number) - 1)
-
-    def look_at_one(self):
-        """Shows an event of a list that has one."""
-        self.addCleanup(self.remove_all)
-        self.browser.get(f"{self.appliance.address}#/recordings")
-        if not self.events():
-            self.record()
-        eventually("an event", self.shown)
-        self.press("Look at it")
-        eventually("a picture", lambda: self.viewed()[2] > 100)
-        eventually("a chart", lambda: self.browser.text("#viewer .signals .read"))
-        return self.events()[0]
-
-    def remove_all(self):
-        for event in eventually("all are finished", lambda: [
-                self.events() for _ in [0] if all(one["is_finished"] for one in self.events())])[0]:
-            asked = urllib.request.Request(
-                f"{self.appliance.address}api/v1/remove_recording", json.dumps({"event": event["name"]}).encode(),
-                {"Content-Type": "application/json"})
-            urllib.request.urlopen(asked, timeout=PATIENCE_S).close()
-
-    def read(self, path, **query):
-        address = f"{self.appliance.address}api/v1/recordings/{path}?{urllib.parse.urlencode(query)}"
-        with urllib.request.urlopen(address, timeout=PATIENCE_S) as answer:
-            return json.load(answer)
-
-    def cursor(self):
-        """Place of the chart's cursor, share of its width."""
-        return self.browser.execute_script("""
-            const line = document.querySelector('#viewer .cursor line');
-            return Number(line.getAttribute('x1')) / document.querySelector('#viewer .plot').clientWidth;""")
-
     def step_through_its_pictures(self, event):
         self.press("Look at it")
         eventually("a picture", lambda: self.viewed()[2] > 100)
         at, count, _ = self.viewed()
         self.assertIn("0.00 s from the trigger", self.browser.text("#viewer output"), "it begins with the trigger")
-        self.assertGreater(at, 3)
+        self.assertGreater(at, 1)
         self.assertLess(at, count)
         self.browser.keep_picture("recordings-viewer")
         self.press("One after")
@@ -168,203 +56,24 @@ class Recordings(PageCase):
         self.press("Close")
         self.assertFalse(self.browser.find_element(By.ID, "viewer").is_displayed())
 
-    def test_a_signal_has_the_cursor_of_the_pictures(self):
-        event = self.look_at_one()
-        chart = self.browser.find_element(By.CSS_SELECTOR, "#viewer .signals canvas")
-        self.browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", chart)
-        choice = Select(self.browser.find_element(By.CSS_SELECTOR, "#viewer [name=signal]"))
-        signals = self.read("signals", event=event["name"])["signals"]
-        self.assertEqual(len(choice.options), len(signals))
-        layer = next(one for one in signals if one["figure"] == "x")
-        choice.select_by_value(json.dumps([layer["region"], layer["figure"]], separators=(",", ":")))
-        course = self.read("signal", event=event["name"], figure="x")
-        at = max(n for n, time in enumerate(course["times"]) if time <= event["triggered"])
-        shown = eventually("its value", lambda: re.fullmatch(
-            r"Tool X (-?\d+\.\d+) mm", self.browser.text("#viewer .signals .read")))
-        self.assertAlmostEqual(float(shown[1]), course["high"][at], delta=0.06)
-        self.assertIn("0.00 s from the trigger", chart.get_attribute("aria-valuetext"))
-        at, count, _ = self.viewed()
-        begun = self.cursor()
-        self.press("One after")
-        eventually("the next one", lambda: self.viewed()[0] == at + 1)
-        self.assertGreater(self.cursor(), begun)
-        chart.send_keys(Keys.END)
-        eventually("the last one", lambda: self.viewed()[0] == count)
-        chart.send_keys(Keys.HOME)
-        eventually("the first one", lambda: self.viewed()[0] == 1)
-        self.assertLess(self.cursor(), begun)
-        chart.send_keys(Keys.ARROW_RIGHT)
-        eventually("the second one", lambda: self.viewed()[0] == 2 and self.viewed()[2] > 100)
-        plot = self.browser.find_element(By.CSS_SELECTOR, "#viewer .plot")
-        ActionChains(self.browser).move_to_element_with_offset(plot, int(0.4 * plot.size["width"]), 0).click().perform()
-        eventually("one of the last", lambda: self.viewed()[0] > at)
-        self.assertGreater(self.cursor(), begun)
-        self.browser.keep_picture("recordings")
-        self.assertEqual(self.browser.complaints(), [])
-
-    def test_a_finger_moves_through_the_event_on_a_phone(self):
-        self.browser.show_on(390, 844)
-        self.look_at_one()
-        self.expect_fits_its_width()
-        plot = self.browser.find_element(By.CSS_SELECTOR, "#viewer .plot")
-        self.browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", plot)
-        at, begun = self.viewed()[0], self.cursor()
-        x, y = self.browser.middle_of(plot)
-        self.browser.touch("touchStart", [(x - 0.4 * plot.size["width"], y)])
-        self.browser.touch("touchEnd", [])
-        eventually("one before", lambda: self.viewed()[0] < at)
-        self.assertLess(self.cursor(), begun)
-        self.browser.keep_picture("recordings-phone")
-
-    def test_the_measured_regions_are_over_the_pictures(self):
-        event = self.look_at_one()
-        recipes = self.read("regions", event=event["name"])["recipes"]
-        regions = [one for one in recipes[0]["regions"] if one["camera"] == "thermal"]
-        self.assertGreater(len(regions), 0)
-        Select(self.browser.find_element(By.CSS_SELECTOR, "#viewer [name=camera]")).select_by_visible_text("thermal")
-        def drawn():
-            return self.browser.execute_script("""
-                const svg = document.querySelector('#viewer .outlines');
-                const seen = document.querySelector('#viewer img').getBoundingClientRect();
-                return [...svg.querySelectorAll('polyline')].map((line) => {
-                  const box = line.getBoundingClientRect();
-                  return [box.left - seen.left, box.top - seen.top, seen.right - box.right, seen.bottom - box.bottom];
-                });""")
-        eventually("regions", lambda: len(drawn()) == sum(len(one["lines"]) for one in regions))
-        eventually("the picture", lambda: self.viewed()[2] > 50)
-        for box in drawn():
-            self.assertGreater(min(box), 0, "within the picture of the ball")
-        self.assertEqual({text.text for text in self.browser.find_elements(By.CSS_SELECTOR, "#viewer .outlines text")},
-                         {one["name"] for one in regions})
-        self.browser.keep_picture("recordings-regions")
-        self.browser.find_element(By.XPATH, "//*[@id='viewer']//label[contains(., 'Regions')]/input").click()
-        eventually("none", lambda: drawn() == [])
-        self.assertEqual(self.browser.complaints(), [])
-
-    def test_an_event_or_a_range_of_it_is_exported(self):
-        saved = pathlib.Path(tempfile.mkdtemp(prefix="orbwatch-saved-"))
-        self.addCleanup(shutil.rmtree, saved)
-        self.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(saved)})
-        event = self.look_at_one()
-        self.browser.find_element(By.CSS_SELECTOR, "#viewer .export summary").click()
-        kind = Select(self.browser.find_element(By.NAME, "format"))
-
-        def export(value):
-            kind.select_by_value(value)
-            self.press("Export as a file")
-            return eventually(f"{value} is saved", lambda: list(saved.glob(f"*.{value}")))[0]
-
-        table = export("csv").read_text(encoding="utf-8").splitlines()
-        sets = len(self.read("signal", event=event["name"], figure="x")["times"])
-        self.assertEqual(len(table), 1 + sets)
-        eventually("it says so", lambda: "is being saved" in self.browser.text("#viewer .export [role=status]"))
-        self.assertEqual(self.read("export")["state"], "none", "it is fetched once")
-        for file in saved.iterdir():
-            file.unlink()
-
-        chart = self.browser.find_element(By.CSS_SELECTOR, "#viewer .signals canvas")
-        self.press("From this picture")
-        chart.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
-        self.press("Up to this picture")
-        self.assertEqual(self.browser.text("#viewer .export output").split(" s")[0], "from 0.00")
-        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#viewer .marks rect")), 1)
-        self.browser.keep_picture("recordings-export")
-        part = export("csv").read_text(encoding="utf-8").splitlines()
-        self.assertGreaterEqual(len(part), 1 + 3)
-        self.assertLess(len(part), 1 + 12)
-        self.assertEqual(part[1].split(",")[0], event["triggered"])
-        self.assertEqual(export("avi").read_bytes()[:4], b"RIFF")
-        self.assertEqual(export("zip").read_bytes()[:2], b"PK")
-        self.assertEqual(self.browser.complaints(), [])
-
-    def cancel_while_it_lasts(self, work, label):
-        """Presses the button `label` that begins an export or a replay, and its Cancel as soon as that is shown. Most
-        work on a short event is done in less than a second: tries again when it was done before."""
-        self.browser.execute_script("""
-            const cancel = [...document.querySelectorAll(`#viewer .${arguments[0]} button`)]
-              .find(({ textContent }) => textContent === 'Cancel');
-            new MutationObserver(() => { if (!cancel.hidden) cancel.click(); }).observe(cancel, { attributes: true });
-            """, work)
-        for _ in range(20):
-            before = self.read(work)["number"]
-            self.press(label)
-            eventually("it ends", lambda: [one for one in [self.read(work)] if one["number"] > before
-                                           and one["state"] not in ("making", "measuring", "ready")])
-            said = f"#viewer .{work} [role=status]"
-            text = eventually("it says so", lambda: next((
-                text for text in [self.browser.text(said)]
-                if re.search("Cancelled|is being saved|were measured again", text)), None))
-            if text.startswith("Cancelled"):
-                return
-        self.fail(f"{label} was never cancelled")
-
-    def test_an_export_and_a_replay_are_cancelled_on_the_page(self):
-        saved = pathlib.Path(tempfile.mkdtemp(prefix="orbwatch-saved-"))
-        self.addCleanup(shutil.rmtree, saved)
-        self.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(saved)})
-        self.look_at_one()
-        self.browser.find_element(By.CSS_SELECTOR, "#viewer .export summary").click()
-        Select(self.browser.find_element(By.NAME, "format")).select_by_value("avi")
-        self.cancel_while_it_lasts("export", "Export as a file")
-        self.assertEqual(self.read("export")["state"], "none")
-        self.browser.find_element(By.CSS_SELECTOR, "#viewer .replay summary").click()
-        self.cancel_while_it_lasts("replay", "Measure it again")
-        self.assertEqual(self.read("replay")["state"], "none")
-
-    def replay(self, recipe):
-        """Tries a recipe on the shown event, and returns the row of the alarm of the pool's width."""
-        Select(self.browser.find_element(By.CSS_SELECTOR, "#viewer [name=recipe]")).select_by_visible_text(recipe)
-        self.press("Measure it again")
-        eventually("a result", lambda: "were measured again" in self.browser.text("#viewer .replay [role=status]"))
-        return self.browser.find_element(
-            By.XPATH, "//*[@id='viewer']//tr[th[contains(., 'pool: hot_spot_width')]]")
-
-    def test_a_recipe_is_tried_on_an_event(self):
-        event = self.look_at_one()
-        self.browser.find_element(By.CSS_SELECTOR, "#viewer .replay summary").click()
-        choice = Select(self.browser.find_element(By.CSS_SELECTOR, "#viewer [name=recipe]"))
-        self.assertEqual(choice.first_selected_option.text, "Recipe 1: cladding")
-
-        width = self.replay("As recorded")
-        self.assertEqual(width.get_attribute("class"), "")
-        self.assertEqual([cell.text for cell in width.find_elements(By.TAG_NAME, "td")], ["not raised", "not raised"])
-        self.assertIn("The event is short", self.browser.text("#viewer .replay [role=status]"))
-
-        width = self.replay("Recipe 2: strict")
-        self.assertEqual(width.get_attribute("class"), "differs")
-        recorded, tried = width.find_elements(By.TAG_NAME, "td")
-        self.assertEqual(recorded.text, "not raised")
-        self.assertIn("high warning", tried.text)
-        self.browser.keep_picture("recordings-replay")
-        result = self.read("replayed", number=self.read("replay")["number"])
-        [alarm] = [one for one in result["alarms"] if one["differs"] and "hot_spot_width" in one["name"]]
-        self.assertEqual(alarm["computed"][0]["level_text"], "high warning")
-        self.assertEqual(result["event"], event["name"])
-        tried.find_element(By.TAG_NAME, "button").click()
-        eventually("its first picture", lambda: self.viewed()[0] <= 2)
-        signal = Select(self.browser.find_element(By.CSS_SELECTOR, "#viewer [name=signal]"))
-        signal.select_by_value('["pool","hot_spot_width"]')
-        eventually("the other curve", lambda: "with the recipe" in self.browser.text("#viewer .signals .second"))
-        self.assertEqual(self.browser.complaints(), [])
-
-    def test_a_replay_is_cancelled_or_refused(self):
-        event = self.look_at_one()
-
-        def post(path, body):
-            asked = urllib.request.Request(f"{self.appliance.address}api/v1/{path}", json.dumps(body).encode(),
-                                           {"Content-Type": "application/json"})
-            with urllib.request.urlopen(asked, timeout=PATIENCE_S) as answer:
-                return json.load(answer)
-
-        number = post("replay_recording", {"event": event["name"], "recipe": 2})["number"]
-        post("cancel_replay", {"number": number})
-        eventually("it ends", lambda: self.read("replay")["state"] == "none")
-        for body in ({"event": "../../etc", "recipe": 2}, {"event": event["name"], "recipe": 9}):
-            with self.assertRaises(urllib.error.HTTPError) as refused:
-                post("replay_recording", body)
-            self.assertEqual(refused.exception.code, 409)
-            self.assertIn("error", json.load(refused.exception))
-            refused.exception.close()
+    def test_the_cause_of_an_event_is_in_the_pages_language(self):
+        events = self.appliance.folder / "recordings" / "events"
+        self.addCleanup(lambda: eventually("none is left", lambda: self.events() == []))
+        self.addCleanup(shutil.rmtree, events)
+        for second, cause in ((1, {"alarm": ALARM}), (2, {}), (3, {"trigger": "line", "line": "button"})):
+            event = events / f"20260101T00000{second}.000Z-alarm"
+            event.mkdir(parents=True)
+            (event / "summary.json").write_text(json.dumps({**SUMMARY, **cause}), encoding="utf-8")
+        for language, line, alarm in (
+                ("en", "line button became active", "pool: Hot spot width, high alarm, 27.3 mm"),
+                ("de", "Leitung button wurde aktiv", "pool: Breite des heißen Flecks, oberer Alarm, 27,3 mm"),
+                ("ja", "デジタル入力 button が有効になった", "pool: 高温部の幅、上限アラーム、27.3 mm")):
+            with self.subTest(language=language):
+                self.browser.get(f"{self.appliance.address}#/recordings")
+                self.browser.execute_script("localStorage.setItem('language', arguments[0])", language)
+                self.browser.refresh()
+                # That of an earlier version, in the middle, has no parts.
+                eventually("causes", lambda: self.shown() == [line, SUMMARY["text"], alarm])
 
     def test_an_event_that_is_being_recorded_says_so(self):
         unfinished = self.appliance.folder / "recordings/events/20200101T000000.000Z-command.unfinished"
@@ -395,25 +104,6 @@ class Recordings(PageCase):
         self.assertIn("0 of 120 events", self.browser.text("#recordings > [role=status]"))
         # These events have no picture.
         self.assertEqual([one for one in self.browser.complaints() if "trigger.jpg" not in one["message"]], [])
-
-    def test_nothing_bars_people_from_events_and_their_pictures(self):
-        self.addCleanup(self.remove_all)
-        def show():
-            self.browser.get(f"{self.appliance.address}#/recordings")
-            if not self.events():
-                self.record()
-            eventually("an event", self.shown)
-            self.press("Look at it")
-            eventually("a picture", lambda: self.viewed()[2] > 100)
-            eventually("a chart", lambda: self.browser.text("#viewer .signals .read"))
-            self.browser.find_element(By.CSS_SELECTOR, "#viewer .export summary").click()
-            self.browser.find_element(By.CSS_SELECTOR, "#viewer .replay summary").click()
-            self.replay("Recipe 2: strict")
-        for width in (1440, 390):
-            with self.subTest(width=width):
-                self.browser.set_window_size(width, 850)
-                self.expect_no_barriers(show)
-                self.expect_fits_its_width()
 
     def test_an_event_without_a_summary_is_listed_beside_others(self):
         events = self.appliance.folder / "recordings" / "events"
@@ -450,7 +140,7 @@ class Recordings(PageCase):
         eventually("the list", lambda: "0 events" in self.browser.text("#recordings > [role=status]"))
         event = self.record()
         self.assertEqual(event["trigger"], "command")
-        self.assertGreater(event["pictures"], 10)
+        self.assertGreater(event["pictures"], 4)
         self.assertEqual(event["lost"], 0)
         eventually("it is shown", lambda: self.shown() == ["By command"])
         eventually("with the picture of its trigger", lambda: self.browser.execute_script(

@@ -39,8 +39,9 @@ NOTE_REQUESTS = """{
 ASKED_IN_TURN = """
 const [module, sizes, shown, done] = arguments;
 import(module).then(({ AskedWidths }) => {
-  const widths = new AskedWidths({ sizesOf: () => sizes });
-  done(shown.map((width) => widths.of([{ name: 'door', width }])[0].width));
+  const listed = new AskedWidths({ sizesOf: () => sizes }), own = new AskedWidths({ sizesOf: () => [] });
+  done([listed, own].map((widths) => shown.map((width) =>
+    widths.of([{ name: 'door', width, ...(widths === own && { sizes }) }])[0].width)));
 }, (error) => done(String(error)));"""
 
 
@@ -188,7 +189,9 @@ class Sizes(SizesCase):
                 ([640, 480, 320, 160], [2000, 641, 600], [2000, 2000, 2000]),
                 # Sizes are not known yet.
                 ([], [300, 900], [300, 300])):
-            self.assertEqual(self.browser.execute_async_script(ASKED_IN_TURN, module, sizes, shown), expected)
+            # Of a view that is listed, and of a picture that is not, which states its sizes.
+            self.assertEqual(self.browser.execute_async_script(ASKED_IN_TURN, module, sizes, shown),
+                             [expected, expected])
 
     def expect_no_shift(self, selector, view):
         """The picture on a canvas lies where it does in full."""
@@ -243,29 +246,27 @@ class Sizes(SizesCase):
         self.assertEqual(self.browser.complaints(), [])
 
 
-class SizesOfABall(SizesCase):
-    """*Look around* with a view of kind ball."""
+class LookingAround(SizesCase):
 
     ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # WebGL
     WIDTH, HEIGHT = 560, 350  # shape of the view "door" in demo.toml
 
-    @classmethod
-    def make_appliance(cls):
-        appliance = Appliance()
-        site = appliance.folder / "demo.toml"
-        site.write_text(site.read_text(encoding="utf-8") + """
-[[view]]
-name = "whole"
-kind = "ball"
-width = 1000
-height = 1000
-[[view.source]]
-camera = "colour"
-""", encoding="utf-8")
-        return appliance
-
     def canvas(self):
         return self.browser.find_element(By.CSS_SELECTOR, "#look canvas")
+
+    def show_one_ball(self):
+        """*Look around* in the first ball alone, on a small canvas."""
+        self.show(1440, 900, "look")
+        eventually("a picture", lambda: self.browser.execute_script(
+            "return Number(document.querySelector('#look canvas')?.dataset.number ?? 0)"))
+        self.browser.execute_script(
+            "const { style } = document.querySelector('#look canvas');"
+            "style.width = `${arguments[0]}px`; style.height = `${arguments[1]}px`;", self.WIDTH, self.HEIGHT)
+        self.browser.execute_script("""
+            const [second, blind] = ['second', 'blind'].map((name) => document.querySelector(`#look [name=${name}]`));
+            second.value = '';
+            second.dispatchEvent(new Event('change'));
+            blind.click();""")
 
     def drawn(self):
         url = self.browser.execute_script("return arguments[0].toDataURL('image/png')", self.canvas())
@@ -282,18 +283,18 @@ camera = "colour"
         with urllib.request.urlopen(f"{self.appliance.address}snapshot.jpg?view=door", timeout=PATIENCE_S) as answer:
             return cv2.resize(decoded(answer.read()), (self.WIDTH, self.HEIGHT), interpolation=cv2.INTER_AREA)
 
+
+class SizesOfABall(LookingAround):
+    """A view of kind ball."""
+
+    @classmethod
+    def make_appliance(cls):
+        appliance = Appliance()
+        appliance.add_ball_view(1000)
+        return appliance
+
     def test_looking_around_asks_for_what_the_gaze_needs(self):
-        self.show(1440, 900, "look")
-        eventually("a picture", lambda: self.browser.execute_script(
-            "return Number(document.querySelector('#look canvas')?.dataset.number ?? 0)"))
-        self.browser.execute_script(
-            "const { style } = document.querySelector('#look canvas');"
-            "style.width = `${arguments[0]}px`; style.height = `${arguments[1]}px`;", self.WIDTH, self.HEIGHT)
-        self.browser.execute_script("""
-            const [second, blind] = ['second', 'blind'].map((name) => document.querySelector(`#look [name=${name}]`));
-            second.value = '';
-            second.dispatchEvent(new Event('change'));
-            blind.click();""")
+        self.show_one_ball()
         widths = self.described()["whole"]["widths"]
         eventually("in full: the ball has less than the screen", lambda: self.asked().get("whole") == 0)
         self.canvas().send_keys("-" * 6)
@@ -305,6 +306,28 @@ camera = "colour"
         self.browser.keep_picture("look-half")
         self.canvas().send_keys(Keys.HOME)
         eventually("in full again", lambda: self.asked().get("whole") == 0)
+
+
+class SizesOfACamera(LookingAround):
+    """A camera's own picture, without a view of kind ball."""
+
+    def test_looking_around_asks_for_what_the_gaze_needs_of_a_camera(self):
+        self.show_one_ball()
+        with urllib.request.urlopen(f"{self.appliance.address}api/v1/sphere?view=ball:colour",
+                                    timeout=PATIENCE_S) as answer:
+            widths = json.loads(answer.readline())["widths"]
+        self.canvas().send_keys("-" * 6)
+        eventually("a smaller size", lambda: 0 < self.asked().get("ball:colour", 0) <= widths[1])
+        with urllib.request.urlopen(f"{self.appliance.address}snapshot.jpg?view=ball:colour"
+                                    f"&width={self.asked()['ball:colour']}", timeout=PATIENCE_S) as answer:
+            self.assertIn(decoded(answer.read()).shape[1], widths[1:])
+        before = self.canvas().get_dom_attribute("data-number")
+        eventually("it is drawn", lambda: int(self.canvas().get_dom_attribute("data-number")) > int(before) + 2)
+        eventually("it is at the same place", lambda: shift(self.drawn(), self.turned_door()) < MOST_SHIFT_PX)
+        self.canvas().send_keys("+" * 20)
+        eventually("in full: the picture has less than the screen", lambda: self.asked().get("ball:colour") == 0)
+        self.assertEqual([entry for entry in self.browser.complaints()
+                          if "GPU stall due to ReadPixels" not in entry["message"]], [])
 
 
 if __name__ == "__main__":

@@ -19,6 +19,40 @@ from appliance import Appliance, eventually, free_port
 from page_case import ZONE, PageCase
 
 
+# Answers the page with the log of an earlier start, of one line, until `isRestarted`.
+EARLIER_LOG = """
+    const fetched = window.fetch;
+    window.fetch = (address, ...more) => {
+      if (window.isRestarted || !String(address).startsWith('api/v1/log?')) return fetched(address, ...more);
+      const line = { number: 1, time: '2026-01-01T00:00:01Z', level: 'info', text: 'an earlier start' };
+      return Promise.resolve(new Response(JSON.stringify({ started: '2026-01-01T00:00:00Z', newest: 1,
+        lines: address.includes('after=0') ? [line] : [] })));
+    };"""
+# The first answer with the versions is not JSON, for example that of a proxy.
+UNREADABLE_VERSIONS = """{
+  const { fetch } = window;
+  let isReadable = false;
+  window.fetch = (address, ...more) => {
+    if (isReadable || address !== 'api/v1/about') return fetch(address, ...more);
+    isReadable = true;
+    return Promise.resolve(new Response('<html>'));
+  };
+}"""
+# Counts reads of the interfaces; the next ones wait until the case lets them begin.
+WAITING_READS = """
+    const { fetch: fetched, setTimeout: later } = window;
+    Object.assign(window, { reads: 0, waiting: [] });
+    window.fetch = (address, ...more) => {
+      if (address === 'api/v1/interfaces') ++window.reads;
+      return fetched(address, ...more);
+    };
+    window.setTimeout = (act, ms, ...more) => {
+      if (ms !== 2000) return later(act, ms, ...more);
+      window.waiting.push(act);
+      return 0;
+    };"""
+
+
 class WithPlc(Appliance):
     """Appliance with Modbus on a port of its own."""
 
@@ -66,14 +100,25 @@ class SystemPage(PageCase):
             "return [...document.querySelectorAll(arguments[0])].filter((row) => !row.hidden)"
             ".map((row) => [...row.cells].map((cell) => cell.textContent))", f"{selector} tbody tr")
 
+    def expect_all_lines(self):
+        """Those that are logged meanwhile are on the page a little later."""
+        eventually("all lines of the log", lambda: [row[2] for row in reversed(self.rows("#log"))] == [
+            line["text"] for line in self.appliance.get("log?lines=1000")["lines"]])
+
     def test_log_is_that_of_the_interface(self):
         self.open("log")
         lines = self.appliance.get("log")["lines"]
         self.assertTrue(any("runs with 2 cameras" in line["text"] for line in lines))
-        shown = eventually("the log", lambda: self.rows("#log"))
-        self.assertEqual([row[2] for row in shown][-len(lines):],
-                         [line["text"] for line in reversed(lines)])
+        self.expect_all_lines()
         self.browser.keep_picture("log")
+
+    def test_log_begins_again_after_a_restart_that_has_logged_more_lines(self):
+        self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": EARLIER_LOG})
+        self.open("log")
+        eventually("the log before", lambda: [row[2] for row in self.rows("#log")] == ["an earlier start"])
+        self.browser.execute_script("window.isRestarted = true")
+        self.expect_all_lines()
+        self.assertEqual(self.browser.complaints(), [])
 
     def test_log_has_local_times(self):
         self.browser.live_in(ZONE)
@@ -126,7 +171,7 @@ class SystemPage(PageCase):
                     By.CSS_SELECTOR, "#interfaces details")
                 if part.text.startswith(("modbus: ", "dds: "))] or None)
             for part in parts:
-                part.find_element(By.TAG_NAME, "summary").click()
+                self.browser.execute_script("arguments[0].open = true", part)
             modbus = self.appliance.get("interfaces")["modbus"]
             self.assertEqual([(client["address"], client["may_write"], client["requests"])
                               for client in modbus["clients"]], [("127.0.0.1", True, 1)])
@@ -141,7 +186,8 @@ class SystemPage(PageCase):
             eventually("the values move", lambda: {
                 row[4]: row[5] for row in self.rows("#interfaces") if len(row) == 8
             }["system_heartbeat"] != shown["system_heartbeat"])
-        topics = {row[0] for row in self.rows("#interfaces") if len(row) == 9}
+        topics = {row[0] for row in eventually("the topics", lambda: [
+            row for row in self.rows("#interfaces") if len(row) == 9])}
         self.assertEqual(topics, {topic["topic"] for topic in
                                   self.appliance.get("interfaces")["dds"]["topics"]})
         metrics = self.appliance.metrics()
@@ -149,6 +195,28 @@ class SystemPage(PageCase):
         self.assertEqual({f'orbwatch_dds_topic_readers{{name="{topic}"}}' for topic in topics},
                          {name for name in metrics if name.startswith("orbwatch_dds_topic_readers{")})
         self.browser.keep_picture("interfaces")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def turn_to(self, page):
+        self.browser.execute_script("location.hash = `#/${arguments[0]}`", page)
+        eventually(page, lambda: self.browser.find_elements(By.CSS_SELECTOR, f"#{page}:not([hidden])"))
+
+    def test_interfaces_are_read_only_while_their_page_is_open(self):
+        def reads():
+            """Lets the waiting reads begin; returns the number of those that did."""
+            return self.browser.execute_script("""
+                window.reads = 0;
+                for (const act of window.waiting.splice(0)) act();
+                return window.reads;""")
+
+        self.open("interfaces")
+        self.browser.execute_script(WAITING_READS)
+        eventually("they are read", reads)
+        eventually("the next read waits", lambda: self.browser.execute_script("return window.waiting.length"))
+        self.turn_to("live")
+        self.assertEqual(reads(), 0)
+        self.turn_to("system")
+        eventually("they are read again", reads)
         self.assertEqual(self.browser.complaints(), [])
 
     def test_stages_are_those_of_the_interface(self):
@@ -175,6 +243,12 @@ class SystemPage(PageCase):
         shown = dict(eventually("the versions", lambda: self.rows("#about")))
         self.assertEqual(shown, about["versions"])
         self.assertIn(about["commanders"], self.browser.text("#about p"))
+
+    def test_versions_are_read_again_after_an_unreadable_answer(self):
+        self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": UNREADABLE_VERSIONS})
+        self.open("about")
+        eventually("the versions", lambda: self.rows("#about"))
+        self.assertEqual(self.browser.complaints(), [])
 
     def test_system_keeps_nobody_out(self):
         self.browser.look_for_barriers()

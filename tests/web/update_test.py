@@ -17,6 +17,14 @@ from appliance import ROOT, Appliance, eventually
 from page_case import PageCase
 
 
+# Counts reads of the state; the next answer is not JSON, for example that of a proxy.
+UNREADABLE_STATE = """
+    const fetched = window.fetch;
+    window.reads = 0;
+    window.fetch = (address, ...more) => (address === 'api/v1/update' && ++window.reads === 1
+      ? Promise.resolve(new Response('<html>')) : fetched(address, ...more));"""
+
+
 class ImageAppliance(Appliance):
     """Its root is a folder with the files of an image, version 1.9 in slot a; RAUC's service is the test's."""
 
@@ -121,6 +129,22 @@ class UpdateOfAnImage(UpdateCase):
             self.send(content)
             self.expect(reason)
             self.assertEqual(self.appliance.spool(), [])
+
+    def test_update_that_cannot_be_read_any_more_is_refused_and_another_is_accepted(self):
+        self.browser.hold_answers("api/v1/upload_update")
+        self.send("bundle orbwatch-amd64 1.10\n" + "x" * 100000)
+        eventually("a part is sent", self.browser.held_answers)
+        (self.saved / "update.raucb").unlink()
+        self.browser.let_go()
+        self.expect("update.raucb cannot be read")
+        self.assertTrue(self.browser.find_element(By.CSS_SELECTOR, "#update form button").is_enabled())
+        self.send("half")
+        self.expect("incomplete or not an update")
+
+    def test_state_is_read_again_after_an_unreadable_answer(self):
+        self.expect("It is kept.")
+        self.browser.execute_script(UNREADABLE_STATE)
+        eventually("it is read again", lambda: self.browser.execute_script("return window.reads") > 1)
 
     def test_trial_is_shown_with_its_seconds_and_takes_no_update(self):
         now = int(time.clock_gettime(time.CLOCK_BOOTTIME))

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Align } from "./align/align.js";
-import { describeFigures } from "./appliance/api.js";
+import { describeAppliance } from "./appliance/api.js";
 import { AskedWidths } from "./appliance/asked_widths.js";
 import { Faults } from "./appliance/faults.js";
+import { PageVersion } from "./appliance/page_version.js";
+import { isSilent, withoutFigures } from "./appliance/silence.js";
 import { Stream } from "./appliance/stream.js";
 import { Views } from "./appliance/views.js";
 import { element, setText } from "./elements/elements.js";
@@ -20,7 +22,6 @@ import { System } from "./system/system.js";
 import { parsed, texts } from "./texts.js";
 
 const kRetryMs = 500;
-const kSilenceS = 2;
 const condition = document.getElementById("condition");
 
 function say(text, isWrong) {
@@ -54,10 +55,10 @@ function addTabs() {
 }
 
 // Retries for ever, because the appliance may start later than the page.
-async function figuresOfAppliance() {
+async function describedAppliance() {
   for (;;) {
     try {
-      return await describeFigures();
+      return await describeAppliance();
     } catch {
       say(texts.connecting, true);
       await new Promise((resolve) => setTimeout(resolve, kRetryMs));
@@ -65,68 +66,89 @@ async function figuresOfAppliance() {
   }
 }
 
-function showCondition(status) {
-  const isSilent = status.age === null || status.age > kSilenceS;
-  const { state, state_text } = status.system;
-  say(isSilent ? texts.silent : state_text, isSilent || state !== figures.system.state.codes.running);
+// `silence`: reason why the status is old; `refused`: reason why views are not sent; empty: none.
+function showCondition({ state, state_text: text }, silence, refused) {
+  const isRight = !silence && !refused && state === figures.system.state.codes.running;
+  say([silence || text, refused && texts.refused(refused)].filter(Boolean).join(". "), !isRight);
 }
 
-// Tabs in the order of the navigation. The object that make() returns may have status(), picture(), lost(), views, each
-// with the width in which it is displayed, device px, 0: in full; and isChanged: it has changes that are not sent.
+// Tabs in the order of the navigation. The object that make() returns may have status(status, now), which has as
+// `silence` the reason why nothing is measured, empty: it is; picture(); lost(why); views, each with the width in which
+// it is displayed, device px, 0: in full; and isChanged: it has changes that are not sent.
 const kTabs = [
   { name: "live", make: (section) => new Live(section, views, faults, choose, isAtLeast("operator")) },
-  { name: "look", make: (section) => new Look(section, choose) },
-  { name: "align", make: (section) => new Align(section, faults, figures.cameras) },
-  { name: "process",
-    make: (section) => new Process(section, faults, recipe, figures, isAtLeast("integrator"), choose) },
+  { name: "look", make: (section) => new Look(section, faults, choose) },
+  { name: "align", make: (section) => new Align(section, faults, figures.cameras, isAtLeast) },
+  { name: "process", make: (section) => new Process(section, faults, recipe, figures, isAtLeast, choose) },
   { name: "recordings", make: (section) => new Recordings(section, figures, isAtLeast) },
   { name: "system", make: (section) => new System(section, views, recipe, figures, session) },
   { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
 ];
 // The only one at the address /operator.
-const kOperator = { name: "operator", make: (section) => new Operator(section, faults, recipe, figures, choose) };
+const kOperator = { name: "operator",
+  make: (section) => new Operator(section, faults, recipe, figures, isAtLeast("operator"), choose) };
 const isOperator = location.pathname.endsWith("/operator");
 const tabs = isOperator ? [kOperator] : kTabs;
 document.body.classList.toggle("operator", isOperator);
 
 document.getElementById("account").after(languageChoice());
 document.getElementById("nav").ariaLabel = texts.navigation;
-const session = await admit(() => say(texts.connecting, true));
+const session = await admit((why) => say(why, why !== ""));
 // True: the user of the page may do what this role may.
 const isAtLeast = (role) => session.roles.includes(role);
 const links = addTabs();
 const views = new Views(), faults = new Faults(views), recipe = new Recipe();
 const notices = new Notices(document.getElementById("notices"), recipe, links,
   isAtLeast("integrator"));
-const figures = await figuresOfAppliance();
+const { version, figures } = await describedAppliance();
 const made = [];
+const hasUnsent = () => made.some((tab) => tab.isChanged);
+const pageVersion = new PageVersion(version, () => !hasUnsent());
 // The shown tab with pictures of views, if any.
 const shown = () => made.find((tab) => tab.views && tab.isShown);
 const widths = new AskedWidths(views);
 const choose = () => stream.choose(widths.of(shown()?.views ?? []));
 for (const { name, make } of tabs) made.push(make(document.getElementById(name)));
-const stream = new Stream(
-  (message) => {
-    if (message.head.kind === "view") return shown()?.picture(message);
-    const status = parsed(new TextDecoder().decode(message.body));
-    showCondition(status);
-    views.status();
-    faults.status(status);
-    recipe.status(status);
-    notices.status(status);
-    for (const tab of made) tab.status?.(status, message.received);
+
+function showStatus(status, received) {
+  const silence = isSilent(status) ? texts.silent : "";
+  document.body.classList.toggle("stale", silence !== "");
+  showCondition(status.system, silence, stream.refused);
+  views.status();
+  pageVersion.status();
+  faults.status(status);
+  recipe.status(status);
+  notices.status(status, silence);
+  const measured = silence ? withoutFigures(status) : status;
+  for (const tab of made) tab.status?.({ ...measured, silence }, received);
+}
+
+// The appliance may restart before the next status: what is known may be old then.
+function showLoss(why) {
+  document.body.classList.add("stale");
+  views.lost();
+  pageVersion.lost();
+  for (const tab of made) tab.lost?.(why);
+}
+
+const stream = new Stream({
+  onMessage: (message) => {
+    if (message.head.kind === "view") shown()?.picture(message);
+    else showStatus(parsed(new TextDecoder().decode(message.body)), message.received);
   },
-  () => {
-    say(texts.connecting, true);
-    views.lost();
-    for (const tab of made) tab.lost?.();
+  onLost: (refused) => {
+    const why = refused ? texts.refused(refused) : texts.connecting;
+    say(why, true);
+    notices.silent(why);
+    showLoss(why);
     askAgain();
   },
-);
+  onPaused: () => showLoss(texts.connecting),
+});
 addEventListener("hashchange", choose);
 views.addEventListener("change", choose);
 // The browser asks before unsent changes are lost.
 addEventListener("beforeunload", (event) => {
-  if (recipe.body || made.some((tab) => tab.isChanged)) event.preventDefault();
+  if (hasUnsent()) event.preventDefault();
 });
 choose();

@@ -25,54 +25,64 @@ function powerNotice({ throttling }) {
   return throttling & kSlowedDown ? texts.notices.throttled : "";
 }
 
-function notice(page) {
-  return element("a", { href: `#/${page}`, className: "wrong", hidden: true });
+function show(notice, text) {
+  setText(notice, text);
+  notice.hidden = text === "";
 }
 
-function show(link, text) {
-  setText(link, text);
-  link.hidden = text === "";
-}
-
-// The trial that runs, with its end, for users who look at other pages meanwhile.
+// The trial that runs, with its end, for users who look at other pages meanwhile. Screen readers announce it once, and
+// not each second of its countdown, which is therefore outside the notices.
 class TrialNotice {
-  constructor(mayChange) {
-    this.text = element("span", { className: "wrong" });
-    this.said = element("span", { className: "wrong" });
-    const buttons = mayChange
+  // `mayEnd`: the user may end it here.
+  constructor(mayEnd) {
+    this.announced = element("p", { className: "spoken" });
+    this.left = element("span", { className: "wrong", role: "timer" });
+    this.said = element("span", { className: "wrong", role: "alert" });
+    const buttons = mayEnd
       ? trialEnds((refused) => setText(this.said, refused ? texts.refused(refused) : "")) : [];
-    this.root = element("p", { hidden: true }, this.text, ...buttons.flatMap((one) => [" ", one]), " ",
+    this.root = element("p", { id: "trial", hidden: true }, this.left, ...buttons.flatMap((one) => [" ", one]), " ",
       this.said);
   }
 
   show(seconds) {
-    this.root.hidden = seconds === 0;
-    setText(this.text, seconds > 0 ? texts.notices.trial(seconds) : "");
-    if (seconds === 0) setText(this.said, "");
+    const runs = seconds > 0;
+    this.root.hidden = !runs;
+    setText(this.announced, runs ? texts.notices.onTrial : "");
+    setText(this.left, runs ? texts.notices.trial(seconds) : "");
+    if (!runs) setText(this.said, "");
   }
 }
 
 export class Notices {
   #count = 0; // raised alarms
+  #silence = ""; // reason why the status is not renewed; empty: it is
 
-  // `links`: those of the navigation by page. `mayChange`: the user may end a trial.
+  // `links`: those of the navigation by page; a notice is a link where its page is among them. `mayChange`: the user
+  // may end a trial.
   constructor(root, recipe, links, mayChange) {
     Object.assign(this, { links });
     this.recipe = element("p", { className: "quiet" });
-    this.alarms = notice("process");
-    this.alignment = notice("align");
-    this.configuration = notice("system");
-    this.machine = notice("system");
-    this.power = notice("system");
-    this.trial = new TrialNotice(mayChange);
+    this.alarms = this.#notice("process");
+    this.alignment = this.#notice("align");
+    this.configuration = this.#notice("system");
+    this.machine = this.#notice("system");
+    this.power = this.#notice("system");
+    this.trial = new TrialNotice(mayChange && links.has("system"));
     root.append(this.recipe, this.alarms, this.alignment, this.configuration, this.machine, this.power,
-      this.trial.root);
+      this.trial.announced);
+    root.after(this.trial.root);
     recipe.addEventListener("change", () => setText(this.recipe, texts.notices.recipe(recipe.stated)));
     addEventListener("hashchange", () => this.#entitle());
     this.#entitle();
   }
 
-  status({ alarms = [], cameras, health, machine, system }) {
+  #notice(page) {
+    const properties = { className: "wrong", hidden: true };
+    return this.links.has(page) ? element("a", { href: `#/${page}`, ...properties }) : element("span", properties);
+  }
+
+  // `silence`: reason why the pipeline's last status is repeated; empty: it is a new one.
+  status({ alarms = [], cameras, health, machine, system }, silence) {
     show(this.machine, isMachineFault(machine) ? texts.notices.machine : "");
     show(this.power, powerNotice(health));
     show(this.configuration, system.configuration_refused ? texts.notices.refused : "");
@@ -81,16 +91,23 @@ export class Notices {
     show(this.alarms, raised.length === 0 ? ""
       : texts.notices.alarms(raised.length, raised[0].name, raised[0].state_text));
     show(this.alignment, cameras.map(alignmentNotice).filter(Boolean).join(". "));
-    if (raised.length === this.#count) return;
     this.#count = raised.length;
+    this.silent(silence);
+  }
+
+  // States in the title why the status is not renewed; empty: it is.
+  silent(why) {
+    this.#silence = why;
     this.#entitle();
   }
 
-  // The document's title and the badge of the page with the alarms.
+  // The document's title and the badge of the page with the alarms. Alarms of an old status are not counted.
   #entitle() {
     const [shown] = [...this.links].find(([, link]) => link.ariaCurrent === "page") ?? ["live"];
-    document.title = texts.notices.title(texts.pages[shown], this.#count);
+    const count = this.#silence ? 0 : this.#count;
+    const title = [this.#silence, texts.notices.title(texts.pages[shown], count)].filter(Boolean).join(" – ");
+    if (document.title !== title) document.title = title;
     const link = this.links.get("process"); // none on the screen of the panel
-    if (link) setText(link, texts.notices.badge(texts.pages.process, this.#count));
+    if (link) setText(link, texts.notices.badge(texts.pages.process, count));
   }
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ball in each camera's picture: found, corrected by hand, accepted.
-import { command } from "../appliance/api.js";
+import { command, patience } from "../appliance/api.js";
 import { directionOf, turnBetween } from "../elements/directions.js";
 import { commandButton, element, setText } from "../elements/elements.js";
+import { offerNames } from "../look/offer.js";
 import { parsed, texts } from "../texts.js";
 import { BallEditor } from "./ball_editor.js";
+import { Gestures } from "./gestures.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";
 import { SceneView } from "./scene_view.js";
@@ -16,7 +18,7 @@ const kPauseMs = 300;  // period of requests to the appliance
 const kNudgeDeg = 0.05;
 
 async function fetched(path) {
-  const answer = await fetch(path);
+  const answer = await fetch(path, patience());
   if (!answer.ok) throw new Error((await answer.json().catch(() => ({}))).error ?? answer.status);
   return answer;
 }
@@ -39,18 +41,19 @@ export class Align {
   #isRunning = false;
   #isCancelled = false;  // the last command cancelled a computation
 
-  // `descriptions` of a camera's figures.
-  constructor(root, faults, descriptions) {
-    Object.assign(this, { root, faults });
+  // `descriptions` of a camera's figures. `isAtLeast(role)`: the user may do what this role may.
+  constructor(root, faults, descriptions, isAtLeast) {
+    Object.assign(this, { root, faults, mayAlign: isAtLeast("integrator"), mayLearn: isAtLeast("operator") });
     this.states = descriptions.proposal.codes;
     this.choice = element("select", { name: "camera" });
     this.choice.addEventListener("change", () => this.#choose());
     this.said = element("p", { role: "status" });
     this.refused = element("p", { role: "alert", className: "wrong" });
-    const give = (name, values) => this.#give(name, values);
-    this.place = new Place(give, (pixel) => this.editor.mark(pixel));
-    this.editor = new BallEditor(give, (pixel) => this.place.pick(pixel),
-      (from, to) => this.#pull(from, to));
+    this.gestures = new Gestures(() => this.#camera, (...given) => this.#give(...given));
+    const give = (name, values) => this.gestures.give(name, values);
+    this.place = new Place(this.gestures, (pixel) => this.editor.mark(pixel), this.mayAlign);
+    this.editor = new BallEditor(this.gestures, (pixel) => this.place.pick(pixel),
+      (...pulled) => this.#pull(...pulled), this.mayAlign);
     this.buttons = Object.fromEntries([
       ["detect", "detect_ball"], ["undo", "undo_alignment"], ["accept", "accept_alignment"],
       ["discard", "discard_alignment"], ["revert", "revert_alignment"],
@@ -58,9 +61,9 @@ export class Align {
     this.blocked = element("p", { id: "not-acceptable", className: "wrong" });
     this.buttons.accept.setAttribute("aria-describedby", this.blocked.id);
     this.facts = element("p", { className: "where" });
-    this.working = new Working(give);
-    this.register = new Register(give);
-    this.scene = new SceneView(give);
+    this.working = new Working(give, this.mayAlign);
+    this.register = new Register(give, this.mayAlign);
+    this.scene = new SceneView(this.gestures, this.mayAlign);
     this.watched = new Watched(descriptions);
     this.steps = this.#makeSteps(give);
     root.append(element("div", { className: "columns" }, this.#makeSeen(),
@@ -76,23 +79,31 @@ export class Align {
     const { accept, undo, discard, revert } = this.buttons;
     return element("div", { className: "seen" },
       element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)), this.editor.root,
-      this.working.root, buttonsOf(accept, undo, discard, revert), this.blocked, this.said, this.refused, this.facts);
+      this.working.root, ...(this.mayAlign ? [buttonsOf(accept, undo, discard, revert), this.blocked] : []),
+      this.said, this.refused, this.facts);
   }
 
+  // Steps without the commands that the user's role may not give.
   #makeSteps(give) {
+    const ifAligning = (...elements) => (this.mayAlign ? elements : []);
     const learn = commandButton(texts.cleanBall.run, "learn_clean_ball", give);
     const correct = commandButton(texts.watched.correct, "correct_alignment", give);
     const contents = {
-      ball: [buttonsOf(this.buttons.detect), element("p", {}, texts.align.help)],
-      register: [this.register.root, element("p", {}, texts.register.turn), buttonsOf(...nudges(give))],
+      ball: this.mayAlign ? [buttonsOf(this.buttons.detect), element("p", {}, texts.align.help)]
+        : [element("p", {}, texts.align.readOnly)],
+      register: [this.register.root,
+        ...ifAligning(element("p", {}, texts.register.turn), buttonsOf(...nudges(give)))],
       place: [this.place.root],
-      check: [this.scene.root, this.watched.root, buttonsOf(correct)],
-      clean: [element("p", {}, texts.cleanBall.help), buttonsOf(learn)],
+      check: [this.scene.root, this.watched.root, ...ifAligning(buttonsOf(correct))],
+      clean: [element("p", {}, texts.cleanBall.help),
+        this.mayLearn ? buttonsOf(learn) : element("p", {}, texts.cleanBall.readOnly)],
     };
     const steps = Object.fromEntries(Object.entries(contents).map(([name, content], index) =>
       [name, new Step(index + 1, name, ...content)]));
     steps.ball.root.open = true;
-    steps.place.root.addEventListener("toggle", () => { this.editor.isMarking = steps.place.isOpen; });
+    steps.place.root.addEventListener("toggle", () => {
+      this.editor.isMarking = this.mayAlign && steps.place.isOpen;
+    });
     return steps;
   }
 
@@ -108,26 +119,33 @@ export class Align {
     return this.#cameras.find(({ name }) => name === this.choice.value);
   }
 
-  // Empty: done; otherwise the reason.
-  async #give(name, values = {}) {
-    if (!this.#camera) return "";
-    const why = await command(name, { camera: this.#camera.index, ...values });
-    this.#isCancelled = name === "cancel_alignment" && !why;
+  // True: done. Another camera may be shown by the time of the answer.
+  async #give({ name, index }, given, values) {
+    const why = await command(given, { camera: index, ...values });
+    if (name === this.choice.value) this.#isCancelled = given === "cancel_alignment" && !why;
     await this.#look().catch((error) => this.#waitAfter(error));
-    setText(this.refused, why ? texts.refused(this.#camera.refusal || why) : "");
-    return why;
+    const refusal = this.#cameras.find((camera) => camera.name === name)?.refusal;
+    this.#refuse(name, why && (refusal || why));
+    return !why;
+  }
+
+  // Empty: the command to the camera is done.
+  #refuse(camera, why) {
+    const isShown = camera === this.choice.value;
+    if (why) setText(this.refused, texts.refused(isShown ? why : `${camera}: ${why}`));
+    else if (isShown) setText(this.refused, "");
   }
 
   // A shape drawn at one pixel is at the other pixel in the picture.
-  async #pull(drawn, shown) {
-    const { name: camera } = this.#camera;
+  async #pull(gesture, drawn, shown) {
+    const { camera } = gesture;
     const directionAt = async ([u, v]) => directionOf(await (await fetched(
       `api/v1/alignment/direction?${new URLSearchParams({ camera, u, v })}`)).json());
     try {
       const [to, from] = await Promise.all([drawn, shown].map(directionAt));
-      await this.#give("turn_camera", turnBetween(from, to));
+      await gesture.give("turn_camera", turnBetween(from, to));
     } catch (error) {
-      setText(this.refused, texts.refused(error.message));
+      this.#refuse(camera, error.message);
     }
   }
 
@@ -163,12 +181,13 @@ export class Align {
     setText(this.said, texts.align.waiting(error.message));
   }
 
+  // A restarted appliance may have other cameras.
   async #look() {
     this.#cameras = parsed(await (await fetched("api/v1/alignment")).text()).cameras;
-    for (const { name } of this.#cameras.slice(this.choice.options.length)) {
-      this.choice.append(element("option", { value: name }, name));
-    }
-    if (this.#camera) this.#show(this.#camera);
+    const { value: before } = this.choice;
+    offerNames(this.choice, this.#cameras.map(({ name }) => name));
+    if (before && before !== this.choice.value) this.#choose();
+    else if (this.#camera) this.#show(this.#camera);
   }
 
   async #showPicture() {
@@ -177,11 +196,12 @@ export class Align {
     const path = `api/v1/alignment/ball.jpg?camera=${encodeURIComponent(name)}`;
     const asked = performance.now();
     const picture = await createImageBitmap(await (await fetched(path)).blob());
-    if (this.#camera.name === name) this.editor.showPicture(picture, asked);
+    if (this.#camera?.name === name) this.editor.showPicture(picture, asked);
     picture.close();
   }
 
   #choose() {
+    this.gestures.end();
     setText(this.refused, "");
     this.#isCancelled = false;
     this.editor.forget();

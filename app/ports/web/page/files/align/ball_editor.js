@@ -3,9 +3,10 @@
 // or keys, and the scene's edges by the alignment.
 import { element } from "../elements/elements.js";
 import { Freshness } from "../elements/freshness.js";
-import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
+import { drawn, followDrag, followPull, kKeys, pixelAt, place } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 import { caption, kStaleMs } from "./camera_view.js";
+import { edgeLine } from "./edge_line.js";
 import { Loupe } from "./loupe.js";
 
 const kStepPx = 0.1, kLargeStepPx = 1;
@@ -45,18 +46,17 @@ function pulled(outline, handle, [u, v]) {
 export class BallEditor {
   #outline = null;   // displayed outline
   #changed = new Set();  // commands to send
-  #edits = 0;        // number of changes
+  #edits = 0;        // number of changes, also of those that are being made
   #isHeld = false;   // being changed: states of the appliance wait
   #settle = 0;
   #handles = {};
   #marked = null;    // pixel of a point that is being marked
   #isMarking = false;
 
-  // `onChange(command, values)` applies a change on the appliance; a promise. `onPick([u, v])`: a click
-  // beside the handles. `onPull(from, to)`: an edge was dragged from one pixel to another; a promise.
-  constructor(onChange, onPick, onPull) {
-    this.onChange = onChange;
-    this.onPull = onPull;
+  // `gestures`: see Gestures. `onPick([u, v])`: a click beside the handles. `onPull(gesture, from, to)`: an edge was
+  // dragged from one pixel to another; a promise. `mayAlign`: the user may change outline and edges.
+  constructor(gestures, onPick, onPull, mayAlign) {
+    Object.assign(this, { gestures, onPull, mayAlign });
     this.canvas = element("canvas", { role: "img", "aria-label": texts.align.picture });
     this.svg = drawn("svg", { role: "group", "aria-label": texts.align.outlineGroup });
     this.edges = drawn("g", { class: "edges" });
@@ -64,7 +64,7 @@ export class BallEditor {
     this.before = drawn("ellipse", { class: "before" });
     this.ellipse = drawn("ellipse", { class: "limb" });
     this.svg.append(this.before, this.ellipse, this.marks, this.edges);
-    for (const name of ["centre", "rx", "ry"]) this.#addHandle(name);
+    for (const name of mayAlign ? ["centre", "rx", "ry"] : []) this.#addHandle(name);
     this.loupe = new Loupe(this.canvas);
     this.onPick = (pixel) => this.#isMarking && onPick(pixel);
     this.svg.addEventListener("click", (event) => {
@@ -75,7 +75,7 @@ export class BallEditor {
       if (this.#isMarking) this.loupe.show(this.pixelAt(event));
     });
     this.svg.addEventListener("pointerleave", () => this.loupe.hide());
-    this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
+    if (mayAlign) this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
     const seen = element("div", { className: "picture" }, this.canvas, this.svg, this.loupe.root);
     this.freshness = new Freshness(seen, kStaleMs);
     this.root = element("figure", { className: "ball" }, seen,
@@ -96,30 +96,35 @@ export class BallEditor {
   }
 
   #drag(event, handle, name) {
-    if (!this.#outline || event.button !== 0) return;
+    const gesture = this.gestures.begin();
+    if (!gesture || !this.#outline || event.button !== 0) return;
     handle.focus();
     const before = this.#outline;
     const from = this.pixelAt(event), at = handlesOf(before, this.canvas)[name];
-    this.#isHeld = true;
+    this.#hold();
     let isMoved = false;
     followDrag(handle, event, (moved) => {
+      if (gesture.isOver()) return;
       isMoved = true;
       const to = this.pixelAt(moved);
       this.#outline = pulled(before, name, [at[0] + to[0] - from[0], at[1] + to[1] - from[1]]);
       this.#draw();
     }, (ended, isDone) => {
+      if (gesture.isOver()) return;
       if (!isDone) this.#outline = before;
       else if (isMoved) this.#change(name);
-      this.#apply();
+      this.#apply(gesture);
     });
   }
 
   // A click on an edge without dragging picks a point.
   #pull(event) {
-    if (event.button !== 0) return;
+    const gesture = this.gestures.begin();
+    if (!gesture || event.button !== 0) return;
     this.#isHeld = true;
     followPull(this.svg, this.edges, event, this.canvas, async (from, to, isDone) => {
-      if (isDone) await (to ? this.onPull(from, to) : this.onPick(from));
+      if (isDone && !gesture.isOver()) await (to ? this.onPull(gesture, from, to) : this.onPick(from));
+      if (gesture.isOver()) return;
       this.#isHeld = false;
       this.#refresh();
     });
@@ -127,8 +132,8 @@ export class BallEditor {
 
   // For a radius, right and up enlarge, left and down reduce it.
   #press(event, name) {
-    const [du, dv] = kKeys[event.key] ?? [];
-    if (du === undefined || !this.#outline) return;
+    const [du, dv] = kKeys[event.key] ?? [], gesture = this.gestures.begin();
+    if (du === undefined || !gesture || !this.#outline) return;
     event.preventDefault();
     const step = event.shiftKey ? kLargeStepPx : kStepPx;
     this.#change(name);
@@ -139,31 +144,38 @@ export class BallEditor {
       this.#outline = { ...this.#outline, [name]: radius };
     }
     this.#draw();
-    clearTimeout(this.#settle);
-    this.#settle = setTimeout(() => this.#apply(), kSettleMs);
+    this.#settle = setTimeout(() => this.#apply(gesture), kSettleMs);
   }
 
   #change(handle) {
     this.#changed.add(handle === "centre" ? "move_outline" : "shape_outline");
+    this.#hold();
+  }
+
+  // Earlier changes do not end it: those being sent count as older, those that wait are sent with this one.
+  #hold() {
+    clearTimeout(this.#settle);
     this.#isHeld = true;
     ++this.#edits;
   }
 
   // Changes made meanwhile are applied later.
-  async #apply() {
+  async #apply(gesture) {
     const edits = this.#edits, { u, v, rx, ry, angle } = this.#outline;
     const values = { move_outline: { u, v }, shape_outline: { rx, ry, angle } };
     const changed = [...this.#changed];
     this.#changed.clear();
-    for (const name of changed) await this.onChange(name, values[name]);
+    for (const name of changed) await gesture.give(name, values[name]);
     if (edits !== this.#edits) return;
     this.#isHeld = false;
     this.#refresh();
   }
 
+  // Another camera takes its place.
   forget() {
     clearTimeout(this.#settle);
     this.#changed.clear();
+    ++this.#edits;
     this.#isHeld = false;
   }
 
@@ -220,7 +232,7 @@ export class BallEditor {
     this.#markPoints(this.camera);
     const shown = this.camera.proposed ?? this.camera.in_force;
     this.#outline = shown?.outline ?? null;
-    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap(({ pixels }) => pullableLine(pixels)));
+    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap(({ pixels }) => edgeLine(pixels, this.mayAlign)));
     this.#draw();
   }
 
@@ -233,8 +245,10 @@ export class BallEditor {
     place(this.ellipse, ellipse(this.#outline));
     const inForce = this.camera.in_force?.outline;
     if (inForce) place(this.before, ellipse(inForce));
-    for (const [name, [cx, cy]] of Object.entries(handlesOf(this.#outline, this.canvas))) {
-      place(this.#handles[name], { cx, cy, r: kHandlePx * this.#scale(),
+    const places = handlesOf(this.#outline, this.canvas);
+    for (const [name, handle] of Object.entries(this.#handles)) {
+      const [cx, cy] = places[name];
+      place(handle, { cx, cy, r: kHandlePx * this.#scale(),
         "aria-label": texts.align.handle[name](this.#outline) });
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A view from one camera alone, or from two at one moment, to judge alignments: its direction, and its
 // pictures.
+import { patience } from "../appliance/api.js";
 import { Framing } from "../appliance/framing.js";
 import { element } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -43,7 +44,7 @@ export class ViewFields {
 
 async function answerOf(route, query) {
   const all = new URLSearchParams([...query, ["width", kSide], ["height", kSide]]);
-  const answer = await fetch(`api/v1/alignment/${route}?${all}`);
+  const answer = await fetch(`api/v1/alignment/${route}?${all}`, patience());
   if (!answer.ok) throw new Error((await answer.json()).error);
   return answer;
 }

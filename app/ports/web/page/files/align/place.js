@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Placement of a camera in the machine by known points in its picture.
+import { decimalText } from "../elements/amounts.js";
 import { commandButton, element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -11,7 +12,7 @@ function number(label, name) {
   return field(label, { type: "number", name, step: "any" });
 }
 
-const rounded = (numbers, digits) => numbers.map((one) => one.toFixed(digits)).join(", ");
+const rounded = (numbers, digits) => texts.place.list(numbers.map((one) => decimalText(one, digits)));
 
 function isOnScreen(shown) {
   const { top, bottom } = shown.getBoundingClientRect();
@@ -21,9 +22,11 @@ function isOnScreen(shown) {
 export class Place {
   #corners = [];  // of the scene, by the alignment that is shown
 
-  // `give(command, values)`: see Align. `onMark(pixel)`: the pixel in the form has changed; null: there is none.
-  constructor(give, onMark) {
-    Object.assign(this, { give, onMark });
+  // `gestures`: see Gestures. `onMark(pixel)`: the pixel in the form has changed; null: there is none. `mayAlign`: the
+  // user may add and remove points.
+  constructor(gestures, onMark, mayAlign) {
+    Object.assign(this, { gestures, onMark, mayAlign });
+    const give = (name) => gestures.give(name);
     this.pixel = element("form", { id: "point" }, number(texts.place.u, "u"), number(texts.place.v, "v"),
       ...kCoordinates.map((name) => number(texts.place[name], name)),
       element("button", {}, texts.place.add));
@@ -39,8 +42,8 @@ export class Place {
     this.forget = commandButton(texts.place.forget, "forget_points", give);
     this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, "", ""],
       texts.place.points);
-    this.root = element("section", { id: "place" }, element("p", {}, texts.place.help), this.pixel,
-      element("p", { className: "buttons" }, light, this.run, this.forget), this.offers, this.points.root);
+    this.root = element("section", { id: "place" }, ...(mayAlign ? [element("p", {}, texts.place.help), this.pixel,
+      element("p", { className: "buttons" }, light, this.run, this.forget), this.offers] : []), this.points.root);
   }
 
   #coordinates() {
@@ -48,10 +51,17 @@ export class Place {
       [name, Number(this.pixel.elements[name].value)]));
   }
 
+  #typed() {
+    return JSON.stringify([...new FormData(this.pixel)]);
+  }
+
+  // Reads the form before the first request: by the time of an answer it may be another camera's, or the next point is
+  // begun in it.
   async #add() {
-    const { u, v } = this.pixel.elements;
-    const why = await this.give("pick_pixel", { u: Number(u.value), v: Number(v.value) });
-    if (!why && !(await this.give("mark_point", this.#coordinates()))) this.forgetPixel();
+    const { u, v } = this.pixel.elements, pixel = { u: Number(u.value), v: Number(v.value) };
+    const gesture = this.gestures.begin(), point = this.#coordinates(), sent = this.#typed();
+    const isAdded = await gesture?.give("pick_pixel", pixel) && await gesture.give("mark_point", point);
+    if (isAdded && !gesture.isOver() && this.#typed() === sent) this.forgetPixel();
   }
 
   #mark() {
@@ -84,7 +94,7 @@ export class Place {
     for (const name of kCoordinates) {
       if (!this.pixel.elements[name].reportValidity()) return;
     }
-    this.give("mark_point", this.#coordinates());
+    this.gestures.give("mark_point", this.#coordinates());
   }
 
   // Handles a click in the picture, which stays where it is: a phone would scroll to a form that is below.
@@ -105,9 +115,9 @@ export class Place {
 
   // The row has its point, which its button discards.
   #addRow() {
-    const remove = element("button", { type: "button" }, texts.remove);
+    const remove = element("button", { type: "button", hidden: !this.mayAlign }, texts.remove);
     const row = element("tr", {}, ...[0, 1, 2, 3].map(() => element("td")), element("td", {}, remove));
-    remove.addEventListener("click", () => this.give("forget_point", row.point));
+    remove.addEventListener("click", () => this.gestures.give("forget_point", row.point));
     return this.points.body.appendChild(row);
   }
 

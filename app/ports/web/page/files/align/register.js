@@ -18,14 +18,14 @@ export class Register {
   #camera = null;
   #pictures = new Reload(() => this.#load());
 
-  // `give(command, values)`: see Align.
-  constructor(give) {
+  // `give(command, values)`: see Gestures. `mayAlign`: the user may register a camera.
+  constructor(give, mayAlign) {
     this.button = commandButton(texts.register.run, "register_camera", give);
     this.comparison = new Comparison();
     this.view = new ViewFields(() => this.#follow());
     this.isFirst = element("p", {}, texts.register.isFirst);
-    this.others = element("div", {}, element("p", {}, texts.register.help),
-      element("p", { className: "buttons" }, this.button), this.#pictures.refused,
+    this.others = element("div", {}, ...(mayAlign ? [element("p", {}, texts.register.help),
+      element("p", { className: "buttons" }, this.button)] : []), this.#pictures.refused,
       this.view.root, this.comparison.root);
     this.root = element("section", { id: "register" }, this.isFirst, this.others);
   }

@@ -4,9 +4,10 @@
 import { turnBetween } from "../elements/directions.js";
 import { element } from "../elements/elements.js";
 import { Freshness } from "../elements/freshness.js";
-import { drawn, followPull, pullableLine } from "../elements/shapes.js";
+import { drawn, followPull } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 import { caption, kSide, kStaleMs, pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
+import { edgeLine } from "./edge_line.js";
 import { Perspective } from "./perspective.js";
 import { Reload } from "./reload.js";
 
@@ -16,19 +17,19 @@ export class SceneView {
   #perspective = null;  // projection of the displayed picture
   #isHeld = false;      // an edge is being dragged: the view is not updated
 
-  // `give(command, values)`: see Align.
-  constructor(give) {
-    this.give = give;
+  // `gestures`: see Gestures. `mayAlign`: the user may drag edges.
+  constructor(gestures, mayAlign) {
+    Object.assign(this, { gestures, mayAlign });
     this.view = new ViewFields(() => this.#follow());
     this.canvas = viewCanvas(texts.sceneView.canvas);
     this.edges = drawn("g", { class: "edges" });
-    this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
+    if (mayAlign) this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
     this.svg = drawn("svg", { role: "group", "aria-label": texts.sceneView.edges,
       viewBox: `-0.5 -0.5 ${kSide} ${kSide}` }, this.edges);
     const seen = element("div", { className: "picture" }, this.canvas, this.svg);
     this.freshness = new Freshness(seen, kStaleMs);
     this.root = element("section", { id: "scene" }, element("h4", {}, texts.sceneView.title),
-      element("p", {}, texts.sceneView.help), this.view.root, this.#picture.refused,
+      mayAlign ? element("p", {}, texts.sceneView.help) : "", this.view.root, this.#picture.refused,
       element("figure", { className: "ball view" }, seen, caption(this.freshness.age)));
   }
 
@@ -70,16 +71,17 @@ export class SceneView {
 
   #drawEdges(edges) {
     const lines = edges.map(({ from, to }) => this.#perspective.lineOf(from, to)).filter(Boolean);
-    this.edges.replaceChildren(...lines.flatMap(pullableLine));
+    this.edges.replaceChildren(...lines.flatMap((line) => edgeLine(line, this.mayAlign)));
   }
 
   #pull(event) {
-    if (event.button !== 0) return;
+    const gesture = this.gestures.begin();
+    if (!gesture || event.button !== 0) return;
     this.#isHeld = true;
     followPull(this.svg, this.edges, event, this.canvas, async (from, to) => {
-      if (to) {
+      if (to && !gesture.isOver()) {
         const [line, shown] = [from, to].map((pixel) => this.#perspective.directionAt(pixel));
-        await this.give("turn_camera", turnBetween(shown, line));
+        await gesture.give("turn_camera", turnBetween(shown, line));
       }
       this.#isHeld = false;
       this.#picture.forget();

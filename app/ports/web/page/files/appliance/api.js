@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Descriptions of the appliance's figures, and commands to it.
+// Data of the appliance, descriptions of its figures, and commands to it.
 import { translated } from "../texts.js";
+
+const kPatienceMs = 10000; // a proxy may wait for an appliance that hangs for much longer
+// Longer than `request_timeout_ms` of [web] by default, until which the appliance may begin to execute a command.
+const kCommandMs = 15000;
+
+// Options of a fetch that gives up in time, so that a request lost on its way blocks none that follow.
+export const patience = (ms = kPatienceMs) => ({ signal: AbortSignal.timeout(ms) });
 
 // A figure's description also ends with its unit. A code has its numbers by name.
 function described(figure) {
@@ -14,28 +21,39 @@ function described(figure) {
     description: hasEnd ? description.slice(0, -end.length) : description };
 }
 
-// Descriptions by kind of component ("system", "cameras"), then by name: {title, description, unit, codes}; only
-// signals have titles.
-export async function describeFigures() {
-  const answer = await fetch("api/v1/openapi.json");
+// JSON of a path. Throws when there is none in time.
+export async function read(path) {
+  const answer = await fetch(path, patience());
   if (!answer.ok) throw new Error(`status ${answer.status}`);
-  const kinds = (await answer.json()).components.schemas.Status.properties;
+  return answer.json();
+}
+
+const description = () => read("api/v1/openapi.json");
+
+// `version` of the appliance, and `figures`: descriptions by kind of component ("system", "cameras"), then by name:
+// {title, description, unit, codes}; only signals have titles.
+export async function describeAppliance() {
+  const { info, components } = await description();
   const figures = {};
-  for (const [kind, schema] of Object.entries(kinds)) {
+  for (const [kind, schema] of Object.entries(components.schemas.Status.properties)) {
     const properties = schema.items?.properties ?? schema.properties ?? {};
     figures[kind] = Object.fromEntries(
       Object.entries(properties).map(([name, figure]) => [name, described(figure)]));
   }
-  return figures;
+  return { version: info.version, figures };
 }
 
-// Members of the answer, with the reason as `refused` if it was not done.
-export async function answerTo(path, body) {
+export const versionOfAppliance = async () => (await description()).info.version;
+
+// Members of the answer, with the reason as `refused` if it was not done. `limit`: what patience() returns; without it,
+// the answer may take as long as the appliance works on it.
+export async function answerTo(path, body, limit) {
   try {
     const answer = await fetch(path, {
       method: "POST",
       headers: { "Content-Type": "application/json", "X-Orbwatch": "page" },
       body: JSON.stringify(body),
+      ...limit,
     });
     const result = await answer.json();
     return answer.ok ? result : { refused: result.error ?? result.result_text };
@@ -45,5 +63,5 @@ export async function answerTo(path, body) {
 }
 
 // Empty: done; otherwise the reason.
-export const post = async (path, body) => (await answerTo(path, body)).refused ?? "";
-export const command = (name, body) => post(`api/v1/command/${name}`, body);
+export const post = async (path, body, limit) => (await answerTo(path, body, limit)).refused ?? "";
+export const command = (name, body) => post(`api/v1/command/${name}`, body, patience(kCommandMs));

@@ -17,12 +17,12 @@ export class AskedWidths {
     this.views = views;
   }
 
-  // `shown`: views with the width in which they are displayed, device px; 0: in full. Returns the same with the widths
-  // to ask for.
+  // `shown`: views with the width in which they are displayed, device px; 0: in full; and `sizes` of those that Views
+  // does not have. Returns the same with the widths to ask for.
   of(shown) {
-    return shown.map(({ name, width }) => {
+    return shown.map(({ name, width, sizes = this.views.sizesOf(name) }) => {
       const before = this.#asked.get(name);
-      if (before === undefined || this.#isDue(before, width, this.views.sizesOf(name))) this.#asked.set(name, width);
+      if (before === undefined || this.#isDue(before, width, sizes)) this.#asked.set(name, width);
       return { name, width: this.#asked.get(name) };
     });
   }

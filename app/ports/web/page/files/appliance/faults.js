@@ -23,7 +23,9 @@ export class Faults {
     return this.#texts.has(name) ? `${name}: ${this.#texts.get(name)}` : "";
   }
 
-  ofView(name) {
-    return this.views.camerasOf(name).map((camera) => this.ofCamera(camera)).filter(Boolean).join(". ");
+  // Faults of the cameras of views that are displayed as one picture, each once.
+  ofView(...names) {
+    const cameras = new Set(names.flatMap((name) => this.views.camerasOf(name)));
+    return [...cameras].map((camera) => this.ofCamera(camera)).filter(Boolean).join(". ");
   }
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last ten minutes of one figure: its history from the appliance, and newer values.
+import { read } from "./api.js";
+
 export const kHistoryMs = 600000;
 // A status has momentary values; the appliance also keeps the peaks between two of them.
 const kAgainMs = 10000;
@@ -65,8 +67,7 @@ export class History {
   async refresh(now) {
     if (now < this.#askedAt + kAgainMs) return;
     this.#askedAt = now;
-    const answer = await fetch(this.path).catch(() => null);
-    const kept = answer?.ok ? await answer.json().catch(() => null) : null;
+    const kept = await read(this.path).catch(() => null);
     if (kept) this.#kept = stepsOf(kept, performance.now());
   }
 

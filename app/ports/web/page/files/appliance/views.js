@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The views as /api/v1/views has them, loaded once and again after a lost connection.
+import { read } from "./api.js";
+
+const kBall = "ball:"; // prefix of a camera's own picture, see /api/v1/look-around
+
 export class Views extends EventTarget {
   #isStale = true; // the views may be older than a restart
   all = [];
@@ -9,9 +13,7 @@ export class Views extends EventTarget {
     if (!this.#isStale) return;
     this.#isStale = false;
     try {
-      const answer = await fetch("api/v1/views");
-      if (!answer.ok) throw new Error(`status ${answer.status}`);
-      ({ views: this.all, colour_maps: this.maps } = await answer.json());
+      ({ views: this.all, colour_maps: this.maps } = await read("api/v1/views"));
       this.dispatchEvent(new Event("change"));
     } catch (error) {
       console.info(`views: ${error.message}`);
@@ -30,6 +32,7 @@ export class Views extends EventTarget {
 
   // Names of the cameras of a view; none: the view is unknown yet.
   camerasOf(name) {
+    if (name.startsWith(kBall)) return [name.slice(kBall.length)];
     return this.all.find((view) => view.name === name)?.sources.map(({ camera }) => camera) ?? [];
   }
 }

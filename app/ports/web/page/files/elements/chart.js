@@ -50,14 +50,16 @@ export class Chart {
     this.read = kSeries.map((className) => element("span", { className }));
     this.root = element("div", { className: "chart" },
       element("p", { className: "read" }, ...this.read, this.when), this.plot);
-    for (const kind of ["pointerdown", "pointermove"]) {
-      this.plot.addEventListener(kind, (event) => this.#point(event));
-    }
+    this.plot.addEventListener("pointerdown", (event) => this.#press(event));
+    this.plot.addEventListener("pointermove", (event) => this.#point(event));
+    this.plot.addEventListener("mousedown", (event) => event.preventDefault()); // would take the focus away again
     this.plot.addEventListener("pointerleave", ({ pointerType }) => {
       if (pointerType === "mouse") this.#setAge(null);
     });
-    this.canvas.addEventListener("keydown", (event) => this.#press(event));
-    this.canvas.addEventListener("blur", () => this.#setAge(null));
+    this.canvas.addEventListener("keydown", (event) => this.#key(event));
+    this.plot.addEventListener("focusout", ({ relatedTarget }) => {
+      if (!this.plot.contains(relatedTarget)) this.#setAge(null);
+    });
   }
 
   // `series`: {history, name, unit} of one or two figures. `limits`: values of the first one to be included in its
@@ -118,7 +120,13 @@ export class Chart {
     this.#setAge((1 - share) * kHistoryMs);
   }
 
+  // Focuses the canvas, which lies behind shapes: the end of the focus ends what a tap shows. Shapes focus themselves.
   #press(event) {
+    if (!event.target.closest(".plot [tabindex]")) this.canvas.focus({ preventScroll: true });
+    this.#point(event);
+  }
+
+  #key(event) {
     const step = (event.shiftKey ? kLargeStepMs : kStepMs) * (kSteps[event.key] ?? 0);
     if (!step && !(event.key in kEnds)) return;
     event.preventDefault();

@@ -45,3 +45,18 @@ export function button(label, act) {
 
 // `give(name)` is called when it is pressed.
 export const commandButton = (label, name, give) => button(label, () => give(name));
+
+// `act` that does nothing, and returns undefined, until its last call has ended: the refusal of a second press would
+// replace the answer to the first.
+export function oneAtATime(act) {
+  let isActing = false;
+  return async (...given) => {
+    if (isActing) return undefined;
+    isActing = true;
+    try {
+      return await act(...given);
+    } finally {
+      isActing = false;
+    }
+  };
+}

@@ -10,44 +10,61 @@ import { SeenTiles } from "./seen_tiles.js";
 import { Tile } from "./tile.js";
 
 export class Live {
-  #chosen = null; // names; null before the first status
+  #chosen = new Map(); // choices by name, in the order of the views
   #large = ""; // name of the large one, where the layout has one
 
   // `mayCommand`: the user may turn, mix and colour views.
   constructor(root, views, faults, onChoice, mayCommand) {
     Object.assign(this, { root, described: views, faults, onChoice });
-    this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
+    const choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
     const tiles = element("div", { id: "tiles" });
-    this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand, () => this.#enlarge(name)));
+    this.choices = new Keyed(choices, (name) => ({ root: this.#makeChoice(name) }));
+    this.tiles = new Keyed(tiles, (name) => this.#makeTile(name, mayCommand));
     this.layouts = new Layouts(tiles);
     this.seen = new SeenTiles(onChoice);
     const help = element("details", {}, element("summary", {}, texts.help), element("p", {}, texts.liveHelp));
-    root.append(element("div", { className: "choices" }, this.choices, this.layouts.root, help), tiles);
+    root.append(element("div", { className: "choices" }, choices, this.layouts.root, help), tiles);
     views.addEventListener("change", () => this.#describe());
     setInterval(() => this.#tick(), 250);
   }
 
-  status(status) {
-    if (!this.#chosen) this.#begin(status.views);
+  #makeChoice(name) {
+    const box = element("input", { type: "checkbox", checked: true, name });
+    box.addEventListener("change", () => this.#choose(name, box.checked));
+    return element("label", {}, box, " ", name);
   }
 
-  #begin(views) {
-    this.#chosen = new Map();
-    for (const { name } of views) {
-      this.#chosen.set(name, true);
-      const box = element("input", { type: "checkbox", checked: true, name });
-      box.addEventListener("change", () => this.#choose(name, box.checked));
-      this.choices.append(element("label", {}, box, " ", name));
-      this.seen.watch(this.tiles.get(name).root, name);
-      followSize(this.tiles.get(name).canvas, this.onChoice);
+  #makeTile(name, mayCommand) {
+    const tile = new Tile(name, mayCommand, () => this.#enlarge(name));
+    this.seen.watch(tile.root, name);
+    followSize(tile.canvas, this.onChoice);
+    return tile;
+  }
+
+  // A restarted appliance may have other views.
+  status({ views = [] }) {
+    const names = views.map(({ name }) => name);
+    if (names.join("\n") !== [...this.#chosen.keys()].join("\n")) this.#offer(names);
+  }
+
+  // Adds and removes tiles; a new view is chosen at first.
+  #offer(names) {
+    for (const name of this.#chosen.keys()) {
+      if (!names.includes(name)) this.seen.forget(this.tiles.get(name).root);
+    }
+    this.#chosen = new Map(names.map((name) => [name, this.#chosen.get(name) ?? true]));
+    for (const parts of [this.choices, this.tiles]) {
+      parts.keep(names);
+      parts.root.append(...names.map((name) => parts.get(name).root));
     }
     this.#describe();
     this.#arrange();
+    this.onChoice();
   }
 
   #describe() {
     for (const view of this.described.all) {
-      if (this.#chosen?.has(view.name)) this.tiles.get(view.name).describe(view, this.described.maps);
+      if (this.#chosen.has(view.name)) this.tiles.get(view.name).describe(view, this.described.maps);
     }
   }
 
@@ -62,11 +79,12 @@ export class Live {
   }
 
   #shownNames() {
-    return [...(this.#chosen ?? [])].filter(([, is]) => is).map(([name]) => name);
+    return [...this.#chosen].filter(([, is]) => is).map(([name]) => name);
   }
 
   picture(message) {
-    this.tiles.get(message.head.name).show(message);
+    const { name } = message.head;
+    if (this.#chosen.has(name)) this.tiles.get(name).show(message);
   }
 
   #choose(name, isChosen) {
@@ -89,6 +107,6 @@ export class Live {
   }
 
   #tick() {
-    for (const [name, is] of this.#chosen ?? []) if (is) this.tiles.get(name).tick(this.faults.ofView(name));
+    for (const [name, is] of this.#chosen) if (is) this.tiles.get(name).tick(this.faults.ofView(name));
   }
 }

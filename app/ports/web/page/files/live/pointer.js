@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values of the displayed picture at the pointer: the mouse, a tap, or a crosshair moved by keys.
+import { patience } from "../appliance/api.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -115,7 +116,7 @@ export class Pointer {
   async #answer(asked) {
     const query = new URLSearchParams({ view: this.view, ...asked });
     try {
-      const answer = await fetch(`api/v1/live/pixel?${query}`);
+      const answer = await fetch(`api/v1/live/pixel?${query}`, patience());
       const said = await answer.json();
       return answer.ok ? { said } : { refused: said.error, isGone: answer.status === 410 };
     } catch (error) {

@@ -22,6 +22,15 @@ export class SeenTiles {
     this.#observer.observe(tile);
   }
 
+  // Stops watching a tile that is removed.
+  forget(tile) {
+    const name = this.#names.get(tile);
+    this.#observer.unobserve(tile);
+    this.#names.delete(tile);
+    this.#inSight.delete(name);
+    this.#seen.delete(name);
+  }
+
   has(name) {
     return this.#seen.has(name);
   }

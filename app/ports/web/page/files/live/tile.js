@@ -13,6 +13,7 @@ import { nextPicture, saveSnapshot } from "./snapshot.js";
 
 export class Tile {
   #hasPicture = false;
+  #described = ""; // what the controls were made of
   #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
 
   // `onEnlarge()`: it shall be the large one.
@@ -64,13 +65,16 @@ export class Tile {
     this.frame.style.setProperty("--aspect", width / height);
   }
 
-  // The view's entry and the colour maps of /api/v1/views.
+  // The view's entry and the colour maps of /api/v1/views. The controls may be in use: without a change they stay.
   describe(view, maps) {
+    const { aim, ...fixed } = view, described = JSON.stringify([fixed, maps]);
+    if (described === this.#described) return;
+    this.#described = described;
     if (!this.#hasPicture) this.#fit(view);
     this.pointed.describe(view);
     this.lock.hidden = this.back.hidden = !this.pointed.mayTurn;
     this.legend = new Legend(view, maps, this.mayCommand, this.say);
-    if (view.aim) this.legend.follow(view.aim.colours);
+    if (aim) this.legend.follow(aim.colours);
     this.controls.replaceChildren(this.legend.root);
     this.mixer = this.mayCommand && view.is_mixed ? new Mixer(view, this.say) : null;
     if (this.mixer) this.controls.append(this.mixer.root);

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The room as seen from the ball, turned by the user: drawn here, or by the appliance if the browser has no
 // WebGL.
+import { patience, read } from "../appliance/api.js";
 import { shownWidth } from "../appliance/asked_widths.js";
 import { Framing } from "../appliance/framing.js";
 import { NewestPicture } from "../appliance/newest_picture.js";
 import { element, setText } from "../elements/elements.js";
+import { Freshness } from "../elements/freshness.js";
 import { texts } from "../texts.js";
 import { followGestures, Gaze } from "./gaze.js";
 import { neededWidth } from "./needed_width.js";
+import { offerNames } from "./offer.js";
 import { ServerLook } from "./server_look.js";
 import { SpherePainter } from "./sphere_painter.js";
 
-const kStaleMs = 2000;
 const kMarks = ["blind", "resolution", "wireFrame"];
-
-async function listViews() {
-  const answer = await fetch("api/v1/look-around");
-  if (!answer.ok) throw new Error(`status ${answer.status}`);
-  return answer.json();
-}
 
 // One camera's mesh, requested again with its tag: {head, body}; null: unchanged.
 class Meshes {
@@ -27,7 +23,7 @@ class Meshes {
   async load(name) {
     const tag = this.#tags.get(name);
     const answer = await fetch(`api/v1/sphere?view=${encodeURIComponent(name)}`,
-      { headers: tag ? { "If-None-Match": tag } : {} });
+      { ...patience(), headers: tag ? { "If-None-Match": tag } : {} });
     if (answer.status === 304) return null;
     if (!answer.ok) throw new Error(`status ${answer.status}`);
     const [mesh] = new Framing().push(new Uint8Array(await answer.arrayBuffer()));
@@ -39,28 +35,22 @@ class Meshes {
   }
 }
 
-function option(name) {
-  return element("option", { value: name }, name);
-}
-
 export class Look {
-  #isStale = true; // data may be older than a restart of the appliance
+  #isStale = true; // data may be older than a restart of the appliance, or than a choice
+  #isCurrent = false; // the meshes are those of the running appliance, whose pictures fit them
   #isLoading = false;
   #willDraw = false;
   #meshes = new Meshes();
   #pictures = new Map(); // pictures by view
-  #latest = null; // {age_ms, received}
-  #faults = "";
 
   // `onChoice()`: other views are needed.
-  constructor(root, onChoice) {
-    this.root = root;
-    this.onChoice = onChoice;
+  constructor(root, faults, onChoice) {
+    Object.assign(this, { root, faults, onChoice });
     this.gaze = new Gaze(() => this.#redraw());
     this.canvas = element("canvas", { tabIndex: 0, role: "application",
       "aria-label": texts.lookCanvas });
-    this.overlay = element("p", { className: "overlay" });
-    this.age = element("span", { className: "age" }, texts.noPicture);
+    this.seen = element("div", { className: "picture" }, this.canvas);
+    this.freshness = new Freshness(this.seen);
     this.where = element("span", { className: "where" });
     this.painter = SpherePainter.make(this.canvas);
     this.#addControls();
@@ -69,7 +59,7 @@ export class Look {
     this.canvas.addEventListener("webglcontextrestored", () => {
       this.painter.begin();
       this.#meshes.forget();
-      this.#isStale = true;
+      this.lost();
     });
     new ResizeObserver(() => this.#redraw()).observe(this.canvas);
     setInterval(() => this.#tick(), 250);
@@ -83,43 +73,53 @@ export class Look {
   // arrived, which has the ball's size.
   get views() {
     if (this.server) return this.#names.map((name) => ({ name, width: shownWidth(this.canvas) }));
-    return this.#names.filter((name) => this.painter?.hasMesh(name)).map((name) =>
-      ({ name, width: neededWidth(this.painter.headOf(name), this.gaze, shownWidth(this.canvas)) }));
+    return this.#names.filter((name) => this.painter?.hasMesh(name)).map((name) => {
+      const head = this.painter.headOf(name);
+      return { name, width: neededWidth(head, this.gaze, shownWidth(this.canvas)), sizes: head.widths };
+    });
   }
   get #names() {
     if (this.server) return this.server.views;
     return [this.first.value, this.second.value].filter(Boolean);
   }
 
-  status(status) {
-    const faults = status.cameras.filter((c) => c.fault !== 0);
-    this.#faults = faults.map((c) => `${c.name}: ${c.fault_text}`).join(". ");
+  status() {
     if (this.isShown && this.#isStale && !this.#isLoading) this.#load();
   }
 
   lost() {
     this.#isStale = true;
+    this.#isCurrent = false;
   }
 
   picture(message) {
     const { name } = message.head;
     if (this.server) return this.server.picture(message);
+    if (!this.#isCurrent) return null;
     if (!this.#pictures.has(name)) {
-      this.#pictures.set(name, new NewestPicture((bitmap, { head, received }) => {
-        this.painter.show(name, bitmap);
-        if (name === this.first.value) {
-          this.#latest = { age_ms: head.age_ms, received };
-          this.canvas.dataset.number = head.number;
-        }
-        this.#redraw();
-      }));
+      this.#pictures.set(name, new NewestPicture((bitmap, { head, received }) => this.#show(bitmap, head, received)));
     }
     return this.#pictures.get(name).show(message);
+  }
+
+  #show(bitmap, { name, number, age_ms }, received) {
+    if (!this.#names.includes(name) || !this.painter.hasMesh(name)) return; // another choice meanwhile
+    this.painter.show(name, bitmap);
+    this.freshness.drew(age_ms, received, name);
+    if (name === this.first.value) this.canvas.dataset.number = number;
+    this.#redraw();
+  }
+
+  // Forgets pictures of cameras that are not chosen any more: without an age they must not be shown again.
+  #forgetOthers() {
+    this.freshness.keep(this.#names);
+    this.painter?.keepPictures(this.#names);
   }
 
   #addControls() {
     const changed = () => {
       this.#isStale = true;
+      this.#forgetOthers();
       this.onChoice();
     };
     this.first = element("select", { name: "first" });
@@ -144,9 +144,8 @@ export class Look {
     back.addEventListener("click", () => this.gaze.reset());
     const full = element("button", { type: "button" }, texts.fullScreen);
     full.addEventListener("click", () => this.figure.requestFullscreen());
-    this.figure = element("figure", {},
-      element("div", { className: "picture" }, this.canvas, this.overlay),
-      element("figcaption", {}, this.where, this.age, back, full));
+    this.figure = element("figure", {}, this.seen,
+      element("figcaption", {}, this.where, this.freshness.age, back, full));
     this.root.append(this.none, this.controls, this.figure, element("p", {}, texts.lookHelp));
   }
 
@@ -154,9 +153,10 @@ export class Look {
     this.#isLoading = true;
     this.#isStale = false;
     try {
-      const { spheres, pointed } = await listViews();
+      const { spheres, pointed } = await read("api/v1/look-around");
       if (!this.painter) this.#beginServer(pointed);
       else await this.#loadSpheres(spheres);
+      this.#isCurrent = !this.#isStale;
     } catch (error) {
       console.info(`look around: ${error.message}`);
       this.#isStale = true; // retried with the next status
@@ -168,22 +168,36 @@ export class Look {
     this.controls.hidden = true;
     this.none.hidden = false;
     setText(this.none, pointed.length > 0 ? texts.noWebGl : texts.noWebGlNoView);
-    if (this.server) return;
-    this.server = new ServerLook(this.canvas, this.gaze, pointed, (latest) => {
-      this.#latest = latest;
-    });
-    if (pointed.length > 0) this.figure.before(this.server.controls(() => this.onChoice()));
+    this.server ??= this.#makeServer();
+    this.server.offer(pointed);
+    this.#forgetOthers();
     this.onChoice();
   }
 
+  #makeServer() {
+    const chosen = () => {
+      this.#forgetOthers();
+      this.onChoice();
+    };
+    const server = new ServerLook(this.canvas, this.gaze, chosen,
+      ({ age_ms, received, name }) => this.freshness.drew(age_ms, received, name));
+    this.figure.before(server.root);
+    return server;
+  }
+
+  // Meshes of a former list are dropped with it.
+  #offer(spheres) {
+    const isFirst = this.second.options.length === 0;
+    if (!offerNames(this.first, spheres)) return;
+    offerNames(this.second, ["", ...spheres]);
+    if (isFirst) this.second.value = spheres[1] ?? "";
+    this.painter.clear();
+    this.#meshes.forget();
+    this.freshness.forget();
+  }
+
   async #loadSpheres(spheres) {
-    const known = [...this.first.options].map((o) => o.value);
-    if (known.join("\n") !== spheres.join("\n")) {
-      this.first.replaceChildren(...spheres.map(option));
-      this.second.replaceChildren(element("option", { value: "" }, texts.lookNone),
-        ...spheres.map(option));
-      this.second.value = spheres[1] ?? "";
-    }
+    this.#offer(spheres);
     this.none.hidden = spheres.length > 0;
     for (const name of this.#names) {
       const mesh = await this.#meshes.load(name);
@@ -229,11 +243,6 @@ export class Look {
     if (!this.isShown) return;
     this.onChoice(); // the gaze or the canvas may need another size
     setText(this.where, texts.lookWhere(this.gaze.yaw, this.gaze.pitch, this.gaze.fov));
-    if (!this.#latest) return setText(this.overlay, this.#faults);
-    const age = this.#latest.age_ms + performance.now() - this.#latest.received;
-    setText(this.age, texts.age(age));
-    this.age.classList.toggle("wrong", age > kStaleMs);
-    const old = age > kStaleMs ? texts.stale(age) : "";
-    setText(this.overlay, [old, this.#faults].filter(Boolean).join(". "));
+    this.freshness.tick(this.faults.ofView(...this.#names));
   }
 }

@@ -177,6 +177,16 @@ export class SpherePainter {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
+  // Forgets all meshes and pictures.
+  clear() {
+    for (const sphere of this.#spheres.values()) sphere.free();
+    this.#spheres.clear();
+  }
+  // Forgets the pictures of all others.
+  keepPictures(names) {
+    for (const [name, sphere] of this.#spheres) if (!names.includes(name)) sphere.hasPicture = false;
+  }
+
   // `mesh`: {head, body} from /api/v1/sphere.
   setMesh(name, mesh) {
     this.#spheres.get(name)?.free();

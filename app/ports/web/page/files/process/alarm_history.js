@@ -26,8 +26,14 @@ export class AlarmHistory {
     this.#count = count;
     const answer = await fetch("api/v1/history/alarms").catch(() => null);
     const read = answer?.ok ? await answer.text().then(parsed).catch(() => null) : null;
+    if (count !== this.#count) return; // a newer request counts
     if (read) this.#show(read.alarms.reverse());
     else this.#count = null;
+  }
+
+  // The appliance may restart, and then counts from 0 again.
+  lost() {
+    this.#count = null;
   }
 
   #show(events) {

@@ -3,7 +3,7 @@
 import { raisedAlarms, severity } from "../appliance/alarms.js";
 import { command } from "../appliance/api.js";
 import { amountText } from "../elements/amounts.js";
-import { element, setText } from "../elements/elements.js";
+import { button, element, setText } from "../elements/elements.js";
 import { Keyed, titled } from "../elements/figures.js";
 import { texts } from "../texts.js";
 
@@ -15,15 +15,20 @@ export function worstOf(alarms) {
   return worst ? kSeverities[severity(worst)] : "";
 }
 
+function acknowledgement(name, acknowledge) {
+  const made = button(texts.acknowledge, acknowledge);
+  made.setAttribute("aria-label", `${texts.acknowledge} ${name}`);
+  return made;
+}
+
 // One alarm, with its button.
 class Alarm {
+  // `acknowledge()` is called by its button; null: the user may not, and there is none.
   constructor(name, about, acknowledge) {
     this.unit = about?.unit ?? "";
     this.state = element("span", { className: "state" });
-    const button = element("button", { type: "button" }, texts.acknowledge);
-    button.setAttribute("aria-label", `${texts.acknowledge} ${name}`);
-    button.addEventListener("click", acknowledge);
-    this.root = element("li", {}, element("strong", {}, ...titled(name, about)), this.state, button);
+    this.root = element("li", {}, element("strong", {}, ...titled(name, about)), this.state,
+      ...(acknowledge ? [acknowledgement(name, acknowledge)] : []));
   }
 
   show(alarm) {
@@ -35,18 +40,18 @@ class Alarm {
 export class Alarms {
   #alarms = [];
 
-  // `descriptions` of the signals.
-  constructor(descriptions) {
+  // `descriptions` of the signals. `mayAcknowledge`: the user may acknowledge alarms.
+  constructor(descriptions, mayAcknowledge) {
     this.said = element("p", { className: "wrong", role: "alert" });
     this.none = element("p", {}, texts.noAlarms);
     this.list = element("ul", { className: "scroll", tabIndex: 0, "aria-label": texts.alarms });
     this.shown = new Keyed(this.list, (name) => {
       const index = this.#alarms.findIndex((alarm) => alarm.name === name);
-      return new Alarm(name, descriptions[this.#alarms[index].signal_text], () => this.#acknowledge(index + 1));
+      return new Alarm(name, descriptions[this.#alarms[index].signal_text],
+        mayAcknowledge ? () => this.#acknowledge(index + 1) : null);
     });
-    const all = element("button", { type: "button" }, texts.acknowledgeAll);
-    all.addEventListener("click", () => this.#acknowledge(0));
-    this.root = element("section", { id: "alarms" }, element("h3", {}, texts.alarms), all, this.said, this.none,
+    const all = mayAcknowledge ? [button(texts.acknowledgeAll, () => this.#acknowledge(0))] : [];
+    this.root = element("section", { id: "alarms" }, element("h3", {}, texts.alarms), ...all, this.said, this.none,
       this.list);
   }
 

@@ -7,13 +7,13 @@ import { KeyFigures } from "./key_figures.js";
 import { RegionEditor } from "./region_editor.js";
 
 export class Glance {
-  // `descriptions` of the signals; `mayChange`: the user may change regions; `onView()`: another view is displayed;
-  // `onKey(region, signal)`: a key figure was pressed.
-  constructor(faults, recipe, descriptions, mayChange, onView, onKey) {
+  // `descriptions` of the signals; `mayChange` regions and `mayAcknowledge` alarms: the user may; `onView()`: another
+  // view is displayed; `onKey(region, signal)`: a key figure was pressed.
+  constructor(faults, recipe, descriptions, { mayChange, mayAcknowledge }, onView, onKey) {
     this.editor = new RegionEditor(recipe, faults, mayChange, onView);
     this.keys = new KeyFigures(descriptions, onKey);
     this.machine = element("p", { className: "machine" });
-    this.alarms = new Alarms(descriptions);
+    this.alarms = new Alarms(descriptions, mayAcknowledge);
     this.root = element("div", { className: "glance" }, this.editor.root,
       element("div", {}, this.machine, this.keys.root, this.alarms.root));
   }
@@ -25,11 +25,18 @@ export class Glance {
     this.editor.picture(message);
   }
 
-  status({ alarms = [], machine, regions = [] }, now) {
+  // `silence`: reason why nothing is measured; empty: it is.
+  status({ alarms = [], machine, regions = [], silence }, now) {
     setText(this.machine, machine ? texts.process.machine(machine) : "");
     this.alarms.show(alarms);
-    this.keys.show(regions, alarms, now);
-    this.editor.mark(regions.map(({ name }, index) =>
+    this.keys.show(regions, alarms, now, silence);
+    this.editor.mark(silence ? [] : regions.map(({ name }, index) =>
       [name, worstOf(alarms.filter(({ region }) => region === index))]));
+  }
+
+  // Shows that nothing is measured without a connection.
+  lost(why) {
+    this.keys.lost(why);
+    this.editor.mark([]);
   }
 }

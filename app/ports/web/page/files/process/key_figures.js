@@ -38,20 +38,32 @@ class KeyFigure {
     this.root.addEventListener("click", () => onChoice(region, signal));
   }
 
-  // `alarms` of the signal.
-  show(value, alarms, now) {
-    this.history.add(now, value);
-    setText(this.value, figureText(value));
+  // `alarms` of the signal. `silence`: reason why nothing is measured; empty: it is.
+  show(value, alarms, now, silence) {
     const [worst = alarms[0]] = raisedAlarms(alarms);
-    setText(this.state, worst.state_text);
-    this.root.className = `key ${worstOf(alarms)}`;
+    this.history.add(now, value);
+    if (silence) this.lost(silence);
+    else this.#say(figureText(value), worst.state_text, worstOf(alarms));
     if (this.root.offsetParent === null) return; // not shown
     this.history.refresh(now);
     drawSpark(this.spark, this.history, now);
   }
+
+  // Neither the value nor the state of its alarms is known.
+  lost(why) {
+    this.#say(figureText(null), why, "");
+  }
+
+  #say(value, state, mark) {
+    setText(this.value, value);
+    setText(this.state, state);
+    this.root.className = `key ${mark}`;
+  }
 }
 
 export class KeyFigures {
+  #keys = []; // keys of the shown figures
+
   // `descriptions` of the signals; `onChoice(region, signal)`: one was pressed.
   constructor(descriptions, onChoice) {
     this.root = element("div", { id: "key-figures", role: "group", "aria-label": texts.process.keyFigures });
@@ -61,15 +73,21 @@ export class KeyFigures {
     });
   }
 
-  show(regions, alarms, now) {
+  // `silence`: reason why nothing is measured; empty: it is.
+  show(regions, alarms, now, silence) {
     const signals = alarms.filter(({ region }) => regions[region])
       .map(({ region, signal_text: signal }) => ({ region, signal }));
     const keyOf = ({ region, signal }) => JSON.stringify([regions[region].name, signal]);
-    this.figures.keep(signals.map(keyOf));
+    this.#keys = signals.map(keyOf);
+    this.figures.keep(this.#keys);
     for (const one of signals) {
       const own = alarms.filter(({ region, signal_text: signal }) =>
         region === one.region && signal === one.signal);
-      this.figures.get(keyOf(one)).show(regions[one.region][one.signal] ?? null, own, now);
+      this.figures.get(keyOf(one)).show(regions[one.region][one.signal] ?? null, own, now, silence);
     }
+  }
+
+  lost(why) {
+    for (const key of this.#keys) this.figures.get(key).lost(why);
   }
 }

@@ -42,8 +42,9 @@ export class LimitLines {
     this.fields = element("div", { className: "limits" });
   }
 
-  // Limits of a region's signal.
+  // Limits of a region's signal. A line that is dragged is removed, and its drag ends without an event.
   choose(region, signal) {
+    this.#held = null;
     this.alarms = this.recipe.alarmsOf(region, signal);
     this.svg.replaceChildren();
     this.#lines.clear();

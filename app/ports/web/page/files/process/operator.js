@@ -7,9 +7,10 @@ import { Glance } from "./glance.js";
 export class Operator {
   isShown = true;
 
-  // `onView()`: another view is needed.
-  constructor(root, faults, recipe, figures, onView) {
-    this.glance = new Glance(faults, recipe, figures.regions ?? {}, false, onView, () => {});
+  // `mayAcknowledge`: the user may acknowledge alarms. `onView()`: another view is needed.
+  constructor(root, faults, recipe, figures, mayAcknowledge, onView) {
+    this.glance = new Glance(faults, recipe, figures.regions ?? {}, { mayChange: false, mayAcknowledge }, onView,
+      () => {});
     const full = iconButton("full", texts.fullScreen);
     full.addEventListener("click", () => document.documentElement.requestFullscreen());
     root.append(this.glance.root, full);
@@ -23,5 +24,8 @@ export class Operator {
   }
   status(status, now) {
     this.glance.status(status, now);
+  }
+  lost(why) {
+    this.glance.lost(why);
   }
 }

@@ -4,6 +4,8 @@ import { element, field } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 export class RecipeCopy {
+  #shown = 0;  // number of the recipe whose copy is shown
+
   constructor(recipe) {
     this.recipe = recipe;
     this.name = field(texts.process.copyAs, { name: "copy", required: false, maxLength: 40, autocomplete: "off" });
@@ -24,11 +26,13 @@ export class RecipeCopy {
     this.recipe.copy = name.value ? { name: name.value, number: number.valueAsNumber || 0 } : null;
   }
 
-  // Without a copy the number is the next free one.
+  // Without a copy the number is the next free one. Fields in use change only with the recipe.
   #show() {
     const [name, number] = this.#fields, { copy, stated } = this.recipe;
-    if (copy) return;
-    name.value = "";
-    number.value = Math.max(0, ...stated.recipes.map((recipe) => recipe.number)) + 1;
+    if (stated.number === this.#shown && this.root.contains(document.activeElement)) return;
+    this.#shown = stated.number;
+    name.value = copy?.name ?? "";
+    if (!copy) number.value = Math.max(0, ...stated.recipes.map((recipe) => recipe.number)) + 1;
+    else if (copy.number > 0) number.value = copy.number;
   }
 }

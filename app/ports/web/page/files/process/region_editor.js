@@ -24,14 +24,16 @@ const option = (name) => element("option", { value: name }, name);
 
 export class RegionEditor {
   #pixels = null;  // corners of the region being changed
-  #changing = null; // name of the region being changed
+  #changing = null; // the region being changed
   #settle = 0;
   #handles = [];   // handles of the corners
   #middles = [];   // handles of the edges, each after its corner
   #marks = new Map(); // classes of regions with alarms
   #markKey = "";
   #corner = 0;     // index of the last touched corner
+  #recipe = 0;     // number of the recipe that is shown
   #pictures = new NewestPicture((picture, { head, received }) => {
+    if (head.name !== this.view.value) return; // another choice meanwhile
     // Sent smaller where it is shown smaller; regions are in the view's pixels.
     this.canvas.getContext("2d").drawImage(picture, 0, 0, this.canvas.width, this.canvas.height);
     this.canvas.dataset.number = head.number;
@@ -139,6 +141,7 @@ export class RegionEditor {
   }
 
   #refresh() {
+    if (this.recipe.stated.number !== this.#recipe) this.#turn();
     const names = this.recipe.stated.views.map(({ name }) => name);
     if ([...this.view.options].map(({ value }) => value).join("\n") !== names.join("\n")) {
       this.view.replaceChildren(...names.map(option));
@@ -149,10 +152,21 @@ export class RegionEditor {
     setText(this.said, this.recipe.removed.map(texts.process.removed).join(" "));
   }
 
+  // Another recipe is shown. A drag that goes on is a change of its own recipe.
+  #turn() {
+    this.#recipe = this.recipe.stated.number;
+    clearTimeout(this.#settle);
+    this.#pixels = null;
+    setText(this.refused, "");
+  }
+
+  #isChanging({ name, recipe }) {
+    return this.#pixels !== null && name === this.#changing.name && recipe === this.#changing.recipe;
+  }
+
   // Corners outside the view cannot be dragged.
   #cornersOf(region) {
-    const isChanging = this.#pixels && region?.name === this.#changing.name;
-    const pixels = isChanging ? this.#pixels : region?.corners.map(({ pixel }) => pixel) ?? [];
+    const pixels = region && this.#isChanging(region) ? this.#pixels : region?.corners.map(({ pixel }) => pixel) ?? [];
     return pixels.every((pixel) => pixel !== null) ? pixels : [];
   }
 
@@ -160,8 +174,7 @@ export class RegionEditor {
     const shown = this.recipe.regions.filter(({ view }) => view === this.view.value);
     const chosen = this.#chosen;
     this.lines.replaceChildren(...shown.flatMap((region) => {
-      const isChanging = this.#pixels && region.name === this.#changing.name;
-      const lines = isChanging ? [[...this.#pixels, this.#pixels[0]]] : region.lines;
+      const lines = this.#isChanging(region) ? [[...this.#pixels, this.#pixels[0]]] : region.lines;
       const at = lines[0]?.[0] ?? [0, 0];
       const text = drawn("text", { x: at[0] + 6 * this.#scale(), y: at[1] + 16 * this.#scale(),
         "font-size": 14 * this.#scale(), class: this.#marks.get(region.name) ?? "" }, region.name);
@@ -270,12 +283,18 @@ export class RegionEditor {
     return kind === "whole_view" || threshold !== undefined;
   }
 
+  // Begins a change of the chosen region. Pixels of another one have been given already.
+  #begin() {
+    if (!this.#isChanging(this.#region)) this.#pixels = null;
+    this.#changing = this.#region;
+  }
+
   #drag(event, shape, moved) {
     if (event.button !== 0) return;
     event.stopPropagation();
     shape.focus();
     const from = pixelAt(this.svg, this.canvas, event), before = this.#cornersOf(this.#region);
-    this.#changing = this.#region;
+    this.#begin();
     followDrag(shape, event, (now) => {
       const to = pixelAt(this.svg, this.canvas, now);
       this.#pixels = moved(to[0] - from[0], to[1] - from[1])(before);
@@ -291,7 +310,7 @@ export class RegionEditor {
     const region = this.#chosen;
     if (event.button !== 0 || !region || !this.#isDrawable(region)) return;
     const from = pixelAt(this.svg, this.canvas, event);
-    this.#changing = region;
+    this.#begin();
     followDrag(this.svg, event, (now) => {
       this.#pixels = rectangle(from, pixelAt(this.svg, this.canvas, now));
       this.#draw();
@@ -343,16 +362,23 @@ export class RegionEditor {
     if (this.#pixels === pixels) this.#forget(); // unchanged meanwhile
   }
 
-  // Returns whether the appliance has coordinates for them.
+  // Returns whether the appliance has coordinates for them, and they still count.
   async #give(region, pixels) {
     try {
-      await this.recipe.setRegion(region, pixels);
-      setText(this.refused, "");
-      return true;
+      const isSet = await this.recipe.setRegion(region, pixels);
+      if (isSet) setText(this.refused, "");
+      return isSet;
     } catch (error) {
       setText(this.refused, texts.refused(error.message));
       return false;
     }
+  }
+
+  // Reason why a new region cannot have this name; empty: it can.
+  #whyNot(name) {
+    const has = (regions) => regions.some((region) => region.name === name);
+    if (has(this.recipe.removed)) return texts.process.isRemoved(name);
+    return has(this.recipe.regions) ? texts.process.isThere(name) : "";
   }
 
   // New region in the middle of the view.
@@ -360,11 +386,10 @@ export class RegionEditor {
     event.preventDefault();
     const { name, threshold } = this.form.elements, { width, height } = this.canvas;
     const away = 0.5 - 0.5 / kNewShare;
-    const added = { name: name.value, view: this.view.value, kind: "whole_view", corners: [], lines: [],
-      threshold: Number(threshold.value) };
-    if (this.recipe.regions.some((region) => region.name === added.name)) {
-      return setText(this.refused, texts.refused(texts.process.isThere(added.name)));
-    }
+    const added = { recipe: this.recipe.stated.number, name: name.value, view: this.view.value, kind: "whole_view",
+      corners: [], lines: [], threshold: Number(threshold.value) };
+    const why = this.#whyNot(added.name);
+    if (why) return setText(this.refused, texts.refused(why));
     const isPlaced = await this.#give(added, rectangle([width * away, height * away],
       [width * (1 - away), height * (1 - away)]));
     if (!isPlaced) return;

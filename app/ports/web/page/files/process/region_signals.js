@@ -14,6 +14,7 @@ const option = (value, text, selected = false) => element("option", { value, sel
 export class RegionSignals {
   #histories = new Map();  // histories of the chosen signals, in the order of the choices
   #signals = new Set();
+  #read = null;            // the recipe that the limits are of
 
   // `descriptions` of the signals; `mayChange`: the user may change limits.
   constructor(name, descriptions, recipe, mayChange) {
@@ -25,7 +26,6 @@ export class RegionSignals {
       option("", texts.process.compare));
     for (const choice of [this.choice, this.other]) choice.addEventListener("change", () => this.#choose());
     this.limits = new LimitLines(recipe, mayChange);
-    recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
     this.chart = new Chart(texts.region(name), this.limits.svg);
     this.add = element("button", { type: "button", hidden: true }, texts.process.addLimit);
     this.add.addEventListener("click", () => this.#addLimit());
@@ -42,12 +42,18 @@ export class RegionSignals {
     this.#choose();
   }
 
-  // Elements being dragged are not recreated.
+  // The recipe or its unsent changes differ. Elements in use are recreated only if the recipe was read again.
+  update() {
+    if (this.recipe.stated !== this.#read || !this.#isEdited()) this.#choose();
+  }
+
+  // True: an element is dragged or typed into.
   #isEdited() {
     return [this.limits.svg, this.limits.fields].some((part) => part.contains(document.activeElement));
   }
 
   #choose() {
+    this.#read = this.recipe.stated;
     const chosen = [this.choice.value, this.other.value].filter(Boolean);
     this.#histories = new Map(chosen.map((figure) =>
       [figure, this.#histories.get(figure) ?? new History({ region: this.name, figure })]));

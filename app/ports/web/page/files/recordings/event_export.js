@@ -37,7 +37,8 @@ export class EventExport {
     this.link.addEventListener("click", () => this.#save());
     this.said = element("p", { role: "status" });
     this.failed = element("p", { role: "alert", className: "wrong" });
-    this.root = element("details", { className: "export" }, element("summary", {}, said.title), this.#makeForm(),
+    this.form = this.#makeForm();
+    this.root = element("details", { className: "export" }, element("summary", {}, said.title), this.form,
       element("p", { className: "buttons" }, this.bar, this.cancel, this.link), this.said, this.failed);
     this.#isMaking = false;
     this.#describe();
@@ -59,14 +60,21 @@ export class EventExport {
     return form;
   }
 
-  // Null closes it; what is being made goes on.
+  // Null closes it; what is being made goes on. The form is hidden until setReady().
   async open(event) {
     this.#event = event;
+    this.form.hidden = true;
+    this.#camera = this.#time = "";
     if (!event) return;
     this.#mark("", "");
     if (this.#number > 0) return;
     const status = await this.#status();
     if (status?.state === "making" && this.#number === 0) this.#follow(status.number, false);
+  }
+
+  // The event's pictures are known, to which camera and range refer.
+  setReady() {
+    this.form.hidden = false;
   }
 
   // The camera and the moment that are shown.

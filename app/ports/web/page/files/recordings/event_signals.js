@@ -80,11 +80,14 @@ export class EventSignals {
     this.choice.value = this.#first();
   }
 
-  // The signal that was chosen in the event before; else that of the alarm, which the cause begins with.
+  // The signal that was chosen in the event before; else that of the alarm. In events of an earlier version the cause
+  // begins with it.
   #first() {
-    const { cause } = this.#event, all = [...this.#signals];
+    const { alarm, cause } = this.#event, all = [...this.#signals];
     if (this.#signals.has(this.#wanted)) return this.#wanted;
-    const [key] = all.find(([, { region, figure }]) => cause.startsWith(`${region}: ${figure} `))
+    const isOfAlarm = ({ region, figure }) => (alarm ? region === alarm.region && figure === alarm.signal
+      : cause.startsWith(`${region}: ${figure} `));
+    const [key] = all.find(([, signal]) => isOfAlarm(signal))
       ?? all.find(([, { figure }]) => figure === kFirstFigure) ?? all[0];
     return key;
   }

@@ -5,7 +5,8 @@ import { decimalText } from "../elements/amounts.js";
 import { Cards } from "../elements/cards.js";
 import { momentText, timeZone } from "../elements/clock.js";
 import { button, element, setText } from "../elements/elements.js";
-import { texts } from "../texts.js";
+import { parsed, texts } from "../texts.js";
+import { causeText } from "./cause.js";
 import { Viewer } from "./viewer.js";
 
 const kAgainMs = 2000;
@@ -13,18 +14,18 @@ const kTypingMs = 200; // from the last key to the request
 const kPage = 100; // events
 const kMost = 1000; // that the appliance sends at once
 const kKinds = ["alarm", "command", "laser_on", "layer", "line"];
-const kNamed = ["alarm", "line"]; // kinds whose cause has a name
 const kMebibyte = 2 ** 20;
 
 const pathOf = (file, name) => `api/v1/recordings/${file}?${new URLSearchParams({ event: name })}`;
 
-// One event, updated in place. `change(path, body)` requests a change, `look(event, title)` shows its pictures.
+// One event, updated in place. `change(path, body)` requests a change, `look(event, title)` shows its pictures;
+// `signals`: descriptions by name.
 class Card {
   #event = null;
 
-  constructor({ name }, { change, look }, may) {
+  constructor({ name }, { change, look }, may, signals) {
     const said = texts.recordings;
-    this.name = name;
+    Object.assign(this, { name, signals });
     this.picture = element("img", { width: 160, loading: "lazy", hidden: true });
     this.cause = element("h3");
     this.when = element("p");
@@ -47,7 +48,7 @@ class Card {
     const said = texts.recordings, moment = Date.parse(event.triggered || event.first);  // NaN without a summary
     this.#event = event;
     this.isPinned = event.is_pinned;
-    setText(this.cause, kNamed.includes(event.trigger) ? event.cause : said.kinds[event.trigger] ?? event.cause);
+    setText(this.cause, causeText(event, this.signals));
     setText(this.when, moment ? momentText(moment) : "");
     setText(this.machine, said.machine(event.part, event.layer));
     setText(this.about, said.about(event.pictures, decimalText(event.bytes / kMebibyte, 1)));
@@ -102,7 +103,7 @@ export class Recordings {
       change: (path, body) => this.#tell(post(`api/v1/${path}`, body)),
       look: (event, title) => this.viewer.open(event, title),
     };
-    this.#cards = new Cards(this.list, ({ name }) => name, (event) => new Card(event, asked, may));
+    this.#cards = new Cards(this.list, ({ name }) => name, (event) => new Card(event, asked, may, figures.regions));
     root.append(this.viewer.root, element("p", { className: "buttons" }, may("operator") ? this.record : ""),
       this.filters, this.said, this.refused, this.list, this.more, this.narrow);
     this.more.hidden = true;
@@ -150,7 +151,7 @@ export class Recordings {
 
   // A list that differs, or the reason why there is none.
   async #take(answer, address) {
-    const read = await answer.json().catch(() => null);
+    const read = await answer.text().then(parsed).catch(() => null);
     this.#address = address;
     this.#tag = read?.events ? answer.headers.get("ETag") ?? "" : "";
     if (read?.error) setText(this.said, texts.refused(read.error));

@@ -28,7 +28,7 @@ export class SignalChart {
   #shown = null;  // {points, tried, name, unit, trigger}
   #moment = 0;
   #range = [null, null];
-  #axis = null;
+  #axis = null;   // null: no value, or not drawn yet, because the chart is hidden
 
   // `choose(moment)`: the pointer is at a moment, milliseconds since 1970; `step(by)`: a key moves by so many pictures.
   constructor({ choose, step }) {
@@ -52,6 +52,7 @@ export class SignalChart {
   // `points`: {at, low, high} of each step, null: not valid. `tried`: those of another recipe; may be empty.
   show(points, name, unit, trigger, tried) {
     this.#shown = { points, tried, name, unit, trigger, first: points[0].at, last: points.at(-1).at };
+    this.#axis = null;
     const values = valuesOf(points);
     this.canvas.setAttribute("aria-label", values.length === 0 ? texts.recordings.chartEmpty(name)
       : texts.recordings.chart(name, figureText(Math.min(...values)), amountText(Math.max(...values), unit)));
@@ -118,7 +119,7 @@ export class SignalChart {
       "aria-valuetext": `${texts.recordings.offset(decimalText(seconds, 2))}: ${this.read.textContent}` });
     const x = Math.min(this.#width, Math.max(0, this.#x(this.#moment)));
     this.cursor.replaceChildren(drawn("line", { x1: x, x2: x, y1: 0, y2: this.plot.clientHeight }),
-      ...(point.high === null ? [] : [drawn("circle", { class: "first", r: kRadiusPx, cx: x,
+      ...(point.high === null || !this.#axis ? [] : [drawn("circle", { class: "first", r: kRadiusPx, cx: x,
         cy: this.#axis.y(point.high) })]));
   }
 

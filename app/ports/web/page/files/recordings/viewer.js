@@ -36,16 +36,17 @@ export class Viewer {
     this.failed = element("p", { role: "alert", className: "wrong" });
     this.signals = new EventSignals(figures,
       { choose: (moment) => this.#choose(moment), step: (by) => this.#step(by) });
+    this.stage = element("div", { className: "stage" },
+      element("div", { className: "seen" }, this.picture, this.regions.svg), this.place,
+      element("p", { className: "buttons steps" }, button(said.before, () => this.#step(-1)),
+        button(said.after, () => this.#step(1)), this.when), this.signals.root);
     this.exports = new EventExport((from, to) => this.signals.setRange(from, to));
     this.replay = new EventReplay(figures,
       { choose: (moment) => this.#choose(moment), onResult: (number) => this.signals.setReplay(number) });
     this.root = element("section", { id: "viewer", hidden: true }, this.heading,
       element("p", { className: "buttons" }, element("label", {}, texts.align.camera, " ", this.camera), this.regions.label,
         button(said.close, () => this.close())),
-      element("div", { className: "stage" }, element("div", { className: "seen" }, this.picture, this.regions.svg),
-        this.place, element("p", { className: "buttons steps" }, button(said.before, () => this.#step(-1)),
-          button(said.after, () => this.#step(1)), this.when), this.signals.root),
-      this.failed, this.regions.said, this.replay.root, this.exports.root);
+      this.stage, this.failed, this.regions.said, this.replay.root, this.exports.root);
   }
 
   open(event, title) {
@@ -53,11 +54,26 @@ export class Viewer {
     this.root.hidden = false;
     setText(this.heading, title);
     setText(this.failed, "");
+    this.#clear();
     this.signals.open(event);
     this.regions.open(event);
     this.exports.open(event);
     this.replay.open(event);
     return this.#read(event);
+  }
+
+  // Removes the event before, until the pictures of the new one are known.
+  #clear() {
+    this.stage.hidden = true;
+    this.#cameras = {};
+    this.#times = [];
+    this.#path = "";
+    this.#isLoading = false;
+    this.camera.replaceChildren();
+    this.picture.removeAttribute("src");
+    this.picture.alt = "";
+    this.place.value = this.place.max = 0;
+    setText(this.when, "");
   }
 
   async #read(event) {
@@ -74,6 +90,9 @@ export class Viewer {
     this.#cameras = Object.fromEntries(read.cameras.map(({ camera, times, parts }) =>
       [camera, { utc: times, times: times.map((time) => Date.parse(time)), parts }]));
     this.camera.replaceChildren(...read.cameras.map(({ camera }) => element("option", { value: camera }, camera)));
+    setText(this.failed, "");
+    this.stage.hidden = false;
+    this.exports.setReady();
     this.#choose(Date.parse(event.triggered || event.first));
     this.root.scrollIntoView({ block: "nearest" });
     this.place.focus({ preventScroll: true });
@@ -130,9 +149,10 @@ export class Viewer {
     this.picture.src = path;
   }
 
+  // The picture may be that of the event before.
   #end(failure) {
     this.#isLoading = false;
-    if (!this.#event) return;
+    if (!this.#event || this.#times.length === 0) return;
     setText(this.failed, failure);
     if (!failure) return this.#load();
     this.#path = "";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Versions, and interfaces that accept commands; loaded once, when the page is shown.
+import { read } from "../appliance/api.js";
 import { Card } from "../elements/card.js";
 import { element, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
@@ -15,9 +16,9 @@ export class About {
   async status() {
     if (this.#isLoaded) return;
     this.#isLoaded = true;
-    const answer = await fetch("api/v1/about").catch(() => null);
-    this.#isLoaded = answer?.ok ?? false; // else retried with the next status
-    if (this.#isLoaded) this.#show(await answer.json());
+    const about = await read("api/v1/about").catch(() => null);
+    this.#isLoaded = about !== null; // else retried with the next status
+    if (about) this.#show(about);
   }
 
   #show({ versions, commanders }) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Login and logout, and the first password.
-import { post } from "../appliance/api.js";
+import { post, read } from "../appliance/api.js";
 import { element, field, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
@@ -8,14 +8,10 @@ const kRetryMs = 500;
 const kFirstUser = "admin";
 const account = document.getElementById("account");
 const section = document.getElementById("access");
-let isSending = false;  // a form is being sent: the page asks for no login until the answer
+let isAsking = false;  // askAgain() waits for the appliance
 let admitted = null;    // session of the user for whom the page was made
 
-export async function session() {
-  const answer = await fetch("api/v1/session");
-  if (!answer.ok) throw new Error(`status ${answer.status}`);
-  return answer.json();
-}
+export const session = () => read("api/v1/session");
 
 // `send(values)` returns the reason of a refusal, or nothing; then `onDone()` is called.
 function showForm(title, fields, action, send, onDone = () => location.reload()) {
@@ -24,9 +20,7 @@ function showForm(title, fields, action, send, onDone = () => location.reload())
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
     setText(refusal, "");
-    isSending = true;
     const refused = await send(Object.fromEntries(new FormData(form)));
-    isSending = false;
     if (refused) setText(refusal, texts.refused(refused));
     else onDone();
   });
@@ -87,20 +81,11 @@ function showAccount({ user, role, has_users: hasUsers, password_characters: cha
   account.replaceChildren(element("span", {}, name), " ", button);
 }
 
-// Returns the session once the user may see the page; until then shows a form. Retries for ever, because the
-// appliance may start later than the page.
-export async function admit(onNoAnswer) {
+// Retries for ever, because the appliance may start later than the page.
+async function presentSession(onNoAnswer) {
   for (;;) {
     try {
-      const present = await session();
-      if (present.role) {
-        admitted = present;
-        showAccount(present);
-        return present;
-      }
-      if (present.has_users) showLogin();
-      else showFirstCode(present.password_characters);
-      return new Promise(() => {});
+      return await session();
     } catch {
       onNoAnswer();
       await new Promise((resolve) => setTimeout(resolve, kRetryMs));
@@ -108,15 +93,33 @@ export async function admit(onNoAnswer) {
   }
 }
 
+// Returns the session once the user may see the page; until then shows a form. `say(why)`: reason why nothing is shown
+// yet; empty: a form is.
+export async function admit(say) {
+  const present = await presentSession(() => say(texts.connecting));
+  if (present.role) {
+    admitted = present;
+    showAccount(present);
+    return present;
+  }
+  say("");
+  if (present.has_users) showLogin();
+  else showFirstCode(present.password_characters);
+  return new Promise(() => {});
+}
+
 // After a lost connection: asks for a new login if the session has ended, over the page, so that nothing typed is
-// lost. The page is made again for another user.
+// lost. The page is made again for another user. One question at a time, because a late answer to another one would
+// replace the form while it is filled in.
 export async function askAgain() {
-  if (!section.hidden) return;
+  if (!section.hidden || isAsking) return;
+  isAsking = true;
   const present = await session().catch(() => null);
-  if (!present || present.role || isSending) return;
+  isAsking = false;
+  if (!present || present.role || !section.hidden) return;
   showLogin(async () => {
-    const next = await session().catch(() => null);
-    if (next?.user !== admitted.user || next.role !== admitted.role) return location.reload();
+    const next = await presentSession(() => {});
+    if (next.user !== admitted.user || next.role !== admitted.role) return location.reload();
     section.hidden = true;
     showAccount(next);
   });

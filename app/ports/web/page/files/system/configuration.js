@@ -10,29 +10,29 @@ import { Trial } from "./trial.js";
 // Text fields support only \n as line end.
 const plain = (text) => text.replaceAll("\r\n", "\n");
 
-// One file. Unchanged files are never sent, so that no byte of them changes.
+// One file. Unchanged files are never sent, so that no byte of them changes. `base` is the text of the appliance that
+// is changed here, and `basis` its checksum; `source` is the text that the field was filled with, with its line ends.
 class FileEditor {
   constructor({ name, text, may_change: mayChange, checksum }) {
     this.name = name;
     this.onDisk = text;
     this.checksum = checksum;  // checksum of the file on the disk
-    this.basis = checksum;     // checksum of the text on which this one is based
     this.area = element("textarea", { rows: 16, spellcheck: false, readOnly: !mayChange, wrap: "off" });
     this.area.setAttribute("aria-label", name);
     this.mark = element("span", {});
     const download = downloadLink(name.split("/").pop(), () => this.text);
     this.reload = element("button", { type: "button", hidden: true }, texts.reloadFile);
     this.reload.addEventListener("click", () => this.#takeFromDisk());
-    this.merge = new Merge(name, (merged) => this.#takeMerged(merged));
+    this.merge = new Merge(name, (merged) => this.#takeFromDisk(merged));
     this.root = element("details", {}, element("summary", {}, name, " ", this.mark), this.area,
       this.merge.root, element("p", {}, download, " ", this.reload));
     this.area.addEventListener("input", () => this.#showMark());
-    this.take(text);
+    this.#takeFromDisk();
   }
 
-  // Sets a new text, from any source.
+  // Sets an uploaded text with its line ends. It is a change of `base` like a typed one.
   take(text) {
-    this.base = text;
+    this.source = text;
     this.area.value = text;
     this.#showMark();
   }
@@ -46,22 +46,19 @@ class FileEditor {
     else this.#showMark();
   }
 
-  #takeFromDisk() {
+  // Bases the text on the file on the disk: it is that file, or `merged`, which has its changes and gets its line ends.
+  #takeFromDisk(merged = this.onDisk) {
+    this.base = this.onDisk;
     this.basis = this.checksum;
-    this.take(this.onDisk);
-  }
-
-  #takeMerged(text) {
-    this.basis = this.checksum;
-    this.take(this.onDisk);
-    this.area.value = text;
+    this.source = this.onDisk;
+    this.area.value = merged;
     this.#showMark();
   }
 
   get text() {
     const typed = this.area.value;
-    if (typed === plain(this.base)) return this.base;
-    return this.base.includes("\r\n") ? typed.replaceAll("\n", "\r\n") : typed;
+    if (typed === plain(this.source)) return this.source;
+    return this.source.includes("\r\n") ? typed.replaceAll("\n", "\r\n") : typed;
   }
 
   get isChanged() {
@@ -122,16 +119,22 @@ export class Configuration {
     this.files.append(editor.root);
   }
 
+  // Null: the reason is shown.
+  async #textOf(file) {
+    const bytes = await file.arrayBuffer().catch(() => null);
+    try {
+      if (bytes) return new TextDecoder("utf-8", { fatal: true, ignoreBOM: true }).decode(bytes);
+    } catch {
+      // Another encoding.
+    }
+    this.trial.say((bytes ? texts.notUtf8 : texts.unreadable)(file.name), true);
+    return null;
+  }
+
   async #takeFiles() {
     for (const file of this.upload.files) {
-      let text;
-      try {
-        text = new TextDecoder("utf-8", { fatal: true, ignoreBOM: true })
-          .decode(await file.arrayBuffer());
-      } catch {
-        this.trial.say(texts.notUtf8(file.name), true);
-        continue;
-      }
+      const text = await this.#textOf(file);
+      if (text === null) continue;
       const named = [...this.#editors.values()]
         .find((editor) => editor.name.split("/").pop() === file.name);
       if (!named) this.#add(new FileEditor({ name: file.name, text: "", may_change: true }));

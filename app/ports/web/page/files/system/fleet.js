@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All appliances of the DDS domain, updated while shown.
-import { post } from "../appliance/api.js";
+import { patience, post } from "../appliance/api.js";
 import { Cards } from "../elements/cards.js";
 import { momentText } from "../elements/clock.js";
 import { element, setText } from "../elements/elements.js";
@@ -62,25 +62,26 @@ export class Fleet {
   constructor(root, mayForget) {
     this.root = root;
     this.said = element("p", { role: "status" });
+    this.refused = element("p", { role: "alert", className: "wrong" }); // `said` is written anew each second
     this.list = element("ul", { id: "appliances" });
     this.#cards = new Cards(this.list, ({ id }) => id, () => new Card());
     this.forget = element("button", { type: "button", hidden: true }, texts.fleet.forget);
     this.forget.addEventListener("click", () => this.#forget());
-    root.append(this.said, this.list, mayForget ? this.forget : "");
+    root.append(this.said, this.refused, this.list, mayForget ? this.forget : "");
     addEventListener("hashchange", () => this.#read());
     this.#read();
   }
 
   async #forget() {
     const refused = await post("api/v1/forget_appliances", {});
-    if (refused) setText(this.said, texts.refused(refused));
-    else this.#read();
+    setText(this.refused, refused && texts.refused(refused));
+    if (!refused) this.#read();
   }
 
   async #read() {
     clearTimeout(this.#again);
     if (this.root.hidden) return;
-    const answer = document.hidden ? null : await fetch("api/v1/appliances").catch(() => null);
+    const answer = document.hidden ? null : await fetch("api/v1/appliances", patience()).catch(() => null);
     const read = await answer?.json().catch(() => null);
     if (read?.error) setText(this.said, texts.refused(read.error));
     else if (read?.missing) setText(this.said, texts.fleet.missing(read.missing));

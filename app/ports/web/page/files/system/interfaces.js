@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures of the interfaces and, updated while shown, their tables: registers, clients, topics.
+import { patience } from "../appliance/api.js";
 import { figureText } from "../elements/amounts.js";
 import { Card } from "../elements/card.js";
 import { element, field, setText, table } from "../elements/elements.js";
@@ -9,7 +10,7 @@ import { kKindsOfOverview } from "./overview.js";
 
 const kAgainMs = 2000;
 // Kinds of the status that other parts of the page show, or that are not a component.
-const kElsewhere = new Set(["stamp", "age", "regions", "alarms", "stages", ...kKindsOfOverview]);
+const kElsewhere = new Set(["stamp", "age", "silence", "regions", "alarms", "stages", ...kKindsOfOverview]);
 
 // One table, whose rows are recreated when their number changes.
 class LiveTable {
@@ -54,8 +55,9 @@ export class Interfaces {
   #tables = new Map();
   #again = 0;
 
-  // `mayRead`: the user may read the tables.
-  constructor(figures, mayRead) {
+  // `isShown()`: its page is open. `mayRead`: the user may read the tables.
+  constructor(figures, isShown, mayRead) {
+    this.isShown = isShown;
     this.said = element("p", { role: "status", className: "wrong" });
     this.components = new Components(figures);
     this.card = new Card("interfaces", texts.interfaces);
@@ -77,10 +79,12 @@ export class Interfaces {
   async #read() {
     clearTimeout(this.#again);
     if (!this.card.isOpen) return;
-    const answer = document.hidden ? null : await fetch("api/v1/interfaces").catch(() => null);
+    const isSeen = this.isShown() && !document.hidden;
+    const answer = isSeen ? await fetch("api/v1/interfaces", patience()).catch(() => null) : null;
     const read = await answer?.json().catch(() => null);
     setText(this.said, read?.error ? texts.refused(read.error) : "");
     if (answer?.ok && read) this.#show(read);
+    clearTimeout(this.#again); // of a table that was opened meanwhile
     this.#again = setTimeout(() => this.#read(), kAgainMs);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The newest lines of the appliance's log, updated while the page is shown, filtered by severity and text.
+import { patience } from "../appliance/api.js";
 import { Card } from "../elements/card.js";
 import { momentText, timeZone } from "../elements/clock.js";
 import { downloadLink } from "../elements/download.js";
@@ -11,7 +12,8 @@ const kMostLines = 1000; // as many as the appliance keeps
 const kLevels = ["info", "warning", "error"]; // ascending
 
 export class Log {
-  #newest = 0;
+  #started = ""; // start of the program that wrote the lines
+  #newest = 0;   // number of the newest line, counted from that start
   #lines = []; // {line, row}, the newest first
   #isReading = false;
 
@@ -44,24 +46,29 @@ export class Log {
     if (this.#isReading || document.hidden || !this.isShown()) return;
     this.#isReading = true;
     const query = new URLSearchParams({ lines: kMostLines, after: this.#newest });
-    const answer = await fetch(`api/v1/log?${query}`).catch(() => null);
+    const answer = await fetch(`api/v1/log?${query}`, patience()).catch(() => null);
     const read = await answer?.json().catch(() => null);
     setText(this.said, read?.error ? texts.refused(read.error) : "");
     if (read?.lines) this.#show(read);
     this.#isReading = false;
   }
 
-  // The newest lines are on top. After a restart the appliance counts from 1 again.
-  #show({ lines, newest }) {
-    if (newest < this.#newest) {
-      this.#lines = [];
-      this.#newest = 0;
-      return this.table.body.replaceChildren();
-    }
+  // The newest lines are on top. Lines after a restart were asked for by a number of the program before: the next
+  // request has them all.
+  #show({ started, lines, newest }) {
+    const isRestarted = started !== this.#started && this.#newest > 0;
+    this.#started = started;
+    if (isRestarted) return this.#clear();
     this.#newest = newest;
     for (const line of lines) this.#add(line);
     for (const { row } of this.#lines.splice(kMostLines)) row.remove();
     this.#summarize();
+  }
+
+  #clear() {
+    this.#newest = 0;
+    this.#lines = [];
+    this.table.body.replaceChildren();
   }
 
   #add(line) {

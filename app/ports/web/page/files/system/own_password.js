@@ -2,7 +2,7 @@
 // Change of the logged-in user's own password.
 import { post } from "../appliance/api.js";
 import { Card } from "../elements/card.js";
-import { element, field, setText } from "../elements/elements.js";
+import { element, field, oneAtATime, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { newPasswordFields } from "./access.js";
 
@@ -14,14 +14,17 @@ export class OwnPassword {
     this.form = element("form", {}, name,
       field(texts.presentPassword, { name: "old", type: "password", autocomplete: "current-password" }),
       ...newPasswordFields(characters), element("button", {}, texts.changePassword));
-    this.form.addEventListener("submit", (event) => this.#change(event));
+    const change = oneAtATime(() => this.#change());
+    this.form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      change();
+    });
     this.card = new Card("password", texts.ownPassword, texts.account(user, role));
     this.card.append(this.form, this.said);
     this.root = this.card.root;
   }
 
-  async #change(event) {
-    event.preventDefault();
+  async #change() {
     const { old, password, again } = Object.fromEntries(new FormData(this.form));
     const why = password === again ? await post("api/v1/set_password", { old, new: password })
       : texts.passwordsDiffer;

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Users, tokens of programs and the audit, for administrators.
-import { answerTo, post } from "../appliance/api.js";
+import { answerTo, patience, post } from "../appliance/api.js";
 import { Card } from "../elements/card.js";
 import { momentText, timeZone } from "../elements/clock.js";
-import { element, field, setText, table } from "../elements/elements.js";
+import { element, field, oneAtATime, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kShownEntries = 50;
+
+async function read(what) {
+  const answer = await fetch(`api/v1/${what}`, patience());
+  const members = await answer.json();
+  if (!answer.ok) throw new Error(members.error);
+  return members;
+}
 
 function roleField(roles) {
   const select = element("select", { name: "role" }, ...roles.map((role) => element("option", {}, role)));
@@ -17,12 +24,14 @@ export class People {
   // `session`: who uses the page, as /api/v1/session has it.
   constructor({ roles, password_characters: characters }) {
     this.said = element("p", { role: "status" });
+    // A text of its own: `said` may be showing a token, which is not shown again.
+    this.stale = element("p", { role: "alert", className: "wrong" });
     this.users = table([texts.user, texts.role, ""], texts.people);
     this.tokens = table([texts.program, texts.role, ""], texts.programs);
     this.done = table([texts.when(timeZone), texts.who, texts.from, texts.what, texts.before, texts.after,
                        texts.result], texts.audit);
     this.card = new Card("people", texts.peopleTitle, texts.cards.people);
-    this.card.append(this.said,
+    this.card.append(this.said, this.stale,
       element("h3", {}, texts.people), this.users.root,
       this.#form(texts.setUser, "api/v1/set_user", [
         field(texts.user, { name: "user", autocomplete: "off" }), roleField(roles),
@@ -39,9 +48,12 @@ export class People {
 
   #form(action, path, fields) {
     const form = element("form", {}, ...fields, element("button", {}, action));
+    const send = oneAtATime(answerTo);
     form.addEventListener("submit", async (event) => {
       event.preventDefault();
-      const { refused, token } = await answerTo(path, Object.fromEntries(new FormData(form)));
+      const answer = await send(path, Object.fromEntries(new FormData(form)));
+      if (!answer) return; // pressed again
+      const { refused, token } = answer;
       if (!refused) form.reset();
       await this.#say(refused, token ? texts.newToken(token) : texts.done);
     });
@@ -49,31 +61,29 @@ export class People {
   }
 
   async #say(refused, done) {
-    this.#show(refused ? texts.refused(refused) : done, Boolean(refused));
+    setText(this.said, refused ? texts.refused(refused) : done);
+    this.said.classList.toggle("wrong", Boolean(refused));
     await this.#refresh();
-  }
-
-  #show(text, isWrong) {
-    setText(this.said, text);
-    this.said.classList.toggle("wrong", isWrong);
   }
 
   #row({ name, role }, action, path, body) {
     const button = element("button", { type: "button" }, action);
     button.setAttribute("aria-label", `${action} ${name}`);
-    button.addEventListener("click", async () => this.#say(await post(path, body), texts.done));
+    button.addEventListener("click", oneAtATime(async () => this.#say(await post(path, body), texts.done)));
     return element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, role),
       element("td", {}, button));
   }
 
   async #refresh() {
-    const answers = await Promise.all(["users", "audit"].map((what) => fetch(`api/v1/${what}`)));
-    const refused = answers.find((answer) => !answer.ok);
-    if (refused) {
-      const { error } = await refused.json();
-      return this.#show(texts.refused(error), true);
+    try {
+      this.#show(...await Promise.all([read("users"), read("audit")]));
+      setText(this.stale, "");
+    } catch (error) {
+      setText(this.stale, texts.refused(error.message));
     }
-    const [people, audit] = await Promise.all(answers.map((answer) => answer.json()));
+  }
+
+  #show(people, audit) {
     this.users.body.replaceChildren(...people.users.map((one) =>
       this.#row(one, texts.remove, "api/v1/remove_user", { user: one.name })));
     this.tokens.body.replaceChildren(...people.tokens.map((one) =>

@@ -14,15 +14,16 @@ const list = (title, lines) => (lines.length === 0 ? [] : [element("p", {}, titl
 export class Restore {
   #contents = null; // contents of the checked backup
   #cameras = [];    // {name, address, input} of each
+  #changes = 0;     // number of changes of the form: a check of what was in it before counts no more
 
   constructor() {
     this.said = element("p", { role: "status" });
     this.shown = element("div", { hidden: true });
+    this.run = element("button", {}, device.restore.check);
     this.form = element("form", {},
       field(device.restore.file, { name: "file", type: "file", accept: ".zst" }), " ",
       ...passphraseFields(device.passphrase, "current-password"), " ",
-      checkBox(device.restore.events, "events", true), " ",
-      element("button", {}, device.restore.check));
+      checkBox(device.restore.events, "events", true), " ", this.run);
     this.form.addEventListener("submit", (event) => this.#check(event));
     // The checked contents are not those that would be restored.
     this.form.addEventListener("input", () => this.#forget());
@@ -38,6 +39,7 @@ export class Restore {
   }
 
   #forget() {
+    ++this.#changes;
     this.#contents = null;
     this.shown.hidden = true;
     this.#say("");
@@ -50,16 +52,27 @@ export class Restore {
     return { passphrase: passphrase || null, cameras, events: new FormData(this.form).has("events") };
   }
 
+  // One at a time: parts of two uploads would mix.
   async #check(event) {
     event.preventDefault();
-    const { file } = Object.fromEntries(new FormData(this.form));
     this.#forget();
     this.#cameras = [];
-    const unsent = await upload("api/v1/upload_backup", file, (share) => this.#say(device.restore.sent(share)));
-    if (unsent) return this.#say(texts.refused(unsent), true);
-    const contents = await answerTo("api/v1/check_restore", this.#body());
+    this.run.disabled = true;
+    const changes = this.#changes, isWanted = () => changes === this.#changes;
+    const contents = await this.#read(isWanted);
+    this.run.disabled = false;
+    if (!isWanted()) return;
     if (contents.refused) return this.#say(texts.refused(contents.refused), true);
     this.#show(contents);
+  }
+
+  // Contents of the backup, or the reason as `refused`; null: they are not wanted any more.
+  async #read(isWanted) {
+    const { file } = Object.fromEntries(new FormData(this.form));
+    const onShare = (share) => this.#say(device.restore.sent(share));
+    const refused = await upload("api/v1/upload_backup", file, { onShare, isWanted });
+    if (!isWanted()) return null;
+    return refused ? { refused } : answerTo("api/v1/check_restore", this.#body());
   }
 
   #show(contents) {
@@ -83,9 +96,9 @@ export class Restore {
 
   async #restore() {
     if (!this.#contents || !confirm(device.restore.asks)) return;
-    this.confirm.disabled = true;
-    const { refused } = await answerTo("api/v1/restore", this.#body());
-    this.confirm.disabled = false;
+    this.confirm.disabled = this.run.disabled = true;
+    const { refused } = await answerTo("api/v1/restore", { ...this.#body(), sha256: this.#contents.sha256 });
+    this.confirm.disabled = this.run.disabled = false;
     if (refused) return this.#say(texts.refused(refused), true);
     this.form.reset();
     this.#forget();

@@ -21,7 +21,7 @@ export class System {
     this.parts = [
       ...overview(figures),
       new Stages(),
-      new Interfaces(figures, may("integrator")),
+      new Interfaces(figures, isShown, may("integrator")),
       may("operator") && new Log(isShown),
       may("operator") && new Control(views, recipe, may("integrator")),
       this.configuration,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // New texts of the configuration: checked, tried out, confirmed or reverted. The appliance restarts with them
 // meanwhile.
-import { answerTo } from "../appliance/api.js";
-import { commandButton, element, setText } from "../elements/elements.js";
+import { answerTo, patience } from "../appliance/api.js";
+import { commandButton, element, oneAtATime, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { trialEnds } from "./trial_end.js";
 
@@ -15,7 +15,8 @@ export class Trial {
   #trial = null;
 
   // `what` is sent to check_WHAT and try_WHAT; `changes()` makes the body, null: no changes. `isShown()`: the
-  // page is visible. `onState(state)`: called repeatedly with the files.
+  // page is visible. `onState(state)`: called repeatedly with the files. `onTried(changes)`: called with what is tried,
+  // which may have changed since.
   constructor(what, changes, isShown, { onState = () => {}, onTried = () => {} } = {}) {
     Object.assign(this, { what, changes, isShown, onState, onTried });
     this.said = element("p", { role: "status" });
@@ -28,9 +29,9 @@ export class Trial {
       ...ends.flatMap((button) => [" ", button]));
     this.head = element("div", { className: "trial" }, this.said, this.waiting);
     this.foot = element("div", { className: "trial" }, element("p", {},
-      commandButton(texts.checkFiles, "check", () => this.#check()), " ",
+      commandButton(texts.checkFiles, "check", oneAtATime(() => this.#check())), " ",
       element("label", {}, texts.trySeconds, " ", this.seconds), " ",
-      commandButton(texts.tryFiles, "try", () => this.#try())), this.difference);
+      commandButton(texts.tryFiles, "try", oneAtATime(() => this.#try()))), this.difference);
   }
 
   say(text, isWrong = false) {
@@ -42,7 +43,7 @@ export class Trial {
   async refresh() {
     clearTimeout(this.#again);
     if (!this.isShown()) return;
-    const answer = await fetch(kPath).catch(() => null);
+    const answer = await fetch(kPath, patience()).catch(() => null);
     const state = answer && await answer.json().catch(() => null);
     const isRestarting = !state || answer.status >= 500;
     if (answer?.ok && state) this.#show(state);
@@ -68,7 +69,7 @@ export class Trial {
     const answer = await answerTo(`api/v1/${verb}_${this.what}`, { ...changes, ...more });
     this.difference.hidden = Boolean(answer.refused);
     setText(this.difference, answer.difference ?? "");
-    if (!answer.refused) return answer;
+    if (!answer.refused) return { ...answer, changes };
     this.say(texts.refused(answer.refused), true);
     await this.refresh();  // another user may have changed a file
     return null;
@@ -83,7 +84,7 @@ export class Trial {
     const answer = await this.#send("try", { seconds: Number(this.seconds.value) });
     if (!answer) return;
     this.say(texts.tried);
-    this.onTried();
+    this.onTried(answer.changes);
     await this.refresh();
   }
 

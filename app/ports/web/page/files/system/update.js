@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Update of a device with two slots: running version and its trial, upload and installation with their progress.
-import { answerTo } from "../appliance/api.js";
+import { answerTo, read } from "../appliance/api.js";
 import { button, element, field, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { upload } from "./upload.js";
@@ -14,6 +14,7 @@ const kAll = 100;
 export class Update {
   #again = 0;
   #isSending = false;
+  #hasAnswer = false;  // what the page said about its own command stays until the next command or installation
 
   // `isShown()`: false while the card is closed or another page is open; nothing is read then.
   constructor(isShown) {
@@ -41,7 +42,7 @@ export class Update {
   // Reads again until the device turns out to have no slots.
   async #read() {
     clearTimeout(this.#again);
-    const answer = this.isShown() && await fetch("api/v1/update").then((sent) => sent.ok && sent.json(), () => null);
+    const answer = this.isShown() && await read("api/v1/update").catch(() => null);
     if (answer) this.#show(answer);
     if (!answer || answer.has_slots) this.#again = setTimeout(() => this.#read(), kAgainMs);
   }
@@ -55,23 +56,33 @@ export class Update {
     this.restart.hidden = answer.trial !== "installed" || answer.work !== "none";
     this.bar.hidden = answer.work === "none";
     this.bar.value = answer.percent;
-    if (isInstalling) return this.#say(update.work[answer.work](answer));
-    if (!this.#isSending) this.#say(answer.failure && texts.refused(answer.failure), Boolean(answer.failure));
+    if (isInstalling) {
+      this.#hasAnswer = false;
+      return this.#say(update.work[answer.work](answer));
+    }
+    if (this.#isSending || this.#hasAnswer) return;
+    this.#say(answer.failure && texts.refused(answer.failure), Boolean(answer.failure));
+  }
+
+  #answer(text, isWrong) {
+    this.#hasAnswer = true;
+    this.#say(text, isWrong);
   }
 
   async #send(event) {
     event.preventDefault();
     const { file } = Object.fromEntries(new FormData(this.form));
     this.#isSending = this.run.disabled = true;
+    this.#hasAnswer = false;
     this.bar.hidden = false;
     const onShare = (share) => {
       this.bar.value = kAll * share;
       this.#say(device.restore.sent(share));
     };
-    const refused = await upload("api/v1/upload_update", file, onShare, ({ size }) => ({ size })) ||
+    const refused = await upload("api/v1/upload_update", file, { onShare, more: { size: file.size } }) ||
       (await answerTo("api/v1/install_update", {})).refused;
     this.#isSending = this.run.disabled = false;
-    if (refused) return this.#say(texts.refused(refused), true);
+    if (refused) return this.#answer(texts.refused(refused), true);
     this.form.reset();
     this.#say("");
     this.#read();
@@ -80,7 +91,7 @@ export class Update {
   async #restart() {
     if (!confirm(update.asks)) return;
     const { refused } = await answerTo("api/v1/restart_device", {});
-    this.#say(refused ? texts.refused(refused) : device.restarts, Boolean(refused));
+    this.#answer(refused ? texts.refused(refused) : device.restarts, Boolean(refused));
     if (!refused) this.restart.hidden = true;
   }
 }

@@ -63,6 +63,7 @@ export const texts = {
     underVoltage: "Unterspannung am Netzteil: das Gerät kann ausfallen",
     throttled: "Der Prozessor ist gedrosselt: zu heiß, oder das Netzteil ist zu schwach",
     trial: (seconds) => `Probelauf einer Konfiguration: Rückkehr in ${seconds} s`,
+    onTrial: "Eine Konfiguration läuft auf Probe",
     recipe: ({ number, name }) => (number === 0 ? "" : `Rezept ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
     badge: (page, alarms) => (alarms > 0 ? `${page} (${alarms})` : page),
@@ -158,6 +159,7 @@ export const texts = {
     refusal: (why) => `Abgelehnt: ${why}`,
     waiting: (why) => `Keine Antwort (${why}): neuer Versuch`,
     notWatched: "Diese Kamera wird nicht überwacht; daher ist sie weder zu sehen noch auszurichten; siehe Protokoll.",
+    readOnly: "Zum Ausrichten ist die Rolle Einrichter nötig.",
   },
   cards: {
     titles: { state: "Zustand", cameras: "Kameras", views: "Ansichten", health: "Gesundheit",
@@ -237,6 +239,8 @@ export const texts = {
   filesRefused: (why) => `Die Dateien sind ungültig, die letzten gültigen laufen: ${why}`,
   uploadFiles: "Texte von diesem Rechner hochladen",
   notUtf8: (name) => `${name} ist kein UTF-8-Text`,
+  unreadable: (name) => `${name} ist nicht lesbar: die Datei hat sich geändert, oder ihr Datenträger wurde entfernt; ` +
+    "bitte neu wählen",
   nothingChanged: "Nichts wurde geändert.",
   checked: (names) => `Gültig. Geändert: ${names || "nichts"}.`,
   log: "Protokoll",
@@ -258,6 +262,7 @@ export const texts = {
     help: "Reinigen Sie die Kugel und lassen Sie das Gerät lernen, was sie zeigt: späterer Schmutz wird daran " +
       "gemessen.",
     run: "Saubere Kugel lernen",
+    readOnly: "Zum Lernen ist die Rolle Bediener nötig.",
   },
   register: {
     run: "Registrieren",
@@ -287,6 +292,7 @@ export const texts = {
     pixel: "Markiert bei, px",
     residual: "Markiert minus projiziert, px",
     outlier: "widerspricht den anderen",
+    list: (numbers) => numbers.join("; "),
   },
   sceneView: {
     title: "Die Maschine in einer Ansicht",
@@ -321,6 +327,8 @@ export const texts = {
   recordings: {
     kinds: { alarm: "Alarm", command: "Auf Befehl", laser_on: "Der Laser ging an", layer: "Die Lage wechselte",
       line: "Eine digitale Leitung" },
+    raised: (region, signal, level, amount) => [`${region}: ${signal}`, level, amount].filter(Boolean).join(", "),
+    lineActive: (name) => `Leitung ${name} wurde aktiv`,
     record: "Aufzeichnen, was jetzt geschieht",
     all: "alle",
     filters: { kind: "Ursache", part: "Teil enthält", layer: "Lage", since: (zone) => `Seit (${zone})`,
@@ -478,9 +486,13 @@ export const texts = {
     threshold: "Schwelle des heißen Flecks, °C oder % des vollen Bereichs",
     add: "Bereich hinzufügen",
     isThere: (name) => `den Bereich ${name} gibt es schon`,
+    isRemoved: (name) => `der Bereich ${name} wird gerade gelöscht; behalten Sie zuerst diese Änderung, oder wählen ` +
+      "Sie einen anderen Namen",
     noSurface: "dort zeigt die Ansicht keine Fläche der Szene",
     changes: "Änderungen des Rezepts",
     forget: "Änderungen verwerfen",
+    unsent: ({ number, name }) => `Nicht gesendete Änderungen des Rezepts ${number}${name ? ` (${name})` : ""}. Sie ` +
+      "erscheinen wieder, wenn es läuft.",
     copyAs: "Das Rezept kopieren als",
     copyNumber: "mit der Nummer",
     copyHelp: "Die Änderungen von oben gehen in ein neues Rezept, in einer eigenen Datei dieses " +

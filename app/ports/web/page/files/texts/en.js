@@ -59,6 +59,7 @@ export const texts = {
     underVoltage: "The supply's voltage is too low: the appliance may stop",
     throttled: "The processor is slowed down: too hot, or the supply is too weak",
     trial: (seconds) => `Trial of a configuration: reverted in ${seconds} s`,
+    onTrial: "A configuration runs on trial",
     recipe: ({ number, name }) => (number === 0 ? "" : `Recipe ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
     badge: (page, alarms) => (alarms > 0 ? `${page} (${alarms})` : page),
@@ -152,6 +153,7 @@ export const texts = {
     refusal: (why) => `Refused: ${why}`,
     waiting: (why) => `No answer (${why}): trying again`,
     notWatched: "This camera is not watched, so it can be neither shown nor aligned; see the log.",
+    readOnly: "Aligning needs the role integrator.",
   },
   cards: {
     titles: { state: "State", cameras: "Cameras", views: "Views", health: "Health",
@@ -231,6 +233,7 @@ export const texts = {
   filesRefused: (why) => `The files are invalid, the last good ones run: ${why}`,
   uploadFiles: "Upload texts from this computer",
   notUtf8: (name) => `${name} is not UTF-8 text`,
+  unreadable: (name) => `${name} cannot be read: it has changed, or its disk was removed; choose it again`,
   nothingChanged: "Nothing was changed.",
   checked: (names) => `Valid. Changed: ${names || "nothing"}.`,
   log: "Log",
@@ -251,6 +254,7 @@ export const texts = {
   cleanBall: {
     help: "Clean the ball, then let the appliance learn what it shows: dirt that comes later is measured against it.",
     run: "Learn the clean ball",
+    readOnly: "Learning needs the role operator.",
   },
   register: {
     run: "Register",
@@ -280,6 +284,7 @@ export const texts = {
     pixel: "Marked at, px",
     residual: "Marked minus projected, px",
     outlier: "contradicts the others",
+    list: (numbers) => numbers.join(", "),
   },
   sceneView: {
     title: "The machine in a view",
@@ -314,6 +319,8 @@ export const texts = {
   recordings: {
     kinds: { alarm: "Alarm", command: "By command", laser_on: "The laser went on", layer: "The layer changed",
       line: "A digital line" },
+    raised: (region, signal, level, amount) => [`${region}: ${signal}`, level, amount].filter(Boolean).join(", "),
+    lineActive: (name) => `line ${name} became active`,
     record: "Record what happens now",
     all: "all",
     filters: { kind: "Cause", part: "Part contains", layer: "Layer", since: (zone) => `Since (${zone})`,
@@ -466,9 +473,12 @@ export const texts = {
     threshold: "threshold of its hot spot, °C or % of full scale",
     add: "Add a region",
     isThere: (name) => `region ${name} exists already`,
+    isRemoved: (name) => `region ${name} is being deleted; keep that change first, or choose another name`,
     noSurface: "the view shows no surface of the scene there",
     changes: "Changes of the recipe",
     forget: "Discard the changes",
+    unsent: ({ number, name }) => `Unsent changes of recipe ${number}${name ? ` (${name})` : ""}. They are shown again ` +
+      "when it runs.",
     copyAs: "Copy the recipe as",
     copyNumber: "with the number",
     copyHelp: "The changes made above go into a new recipe, in a file of its own with this name; the " +

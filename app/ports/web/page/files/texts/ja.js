@@ -60,6 +60,7 @@ export const texts = {
     underVoltage: "電源の電圧が低すぎます。装置が停止するおそれがあります",
     throttled: "プロセッサの速度が制限されています。温度が高すぎるか、電源の容量が足りません",
     trial: (seconds) => `設定を試行中: ${seconds} 秒後に元に戻ります`,
+    onTrial: "設定を試行しています",
     recipe: ({ number, name }) => (number === 0 ? "" : `レシピ ${number}${name ? `: ${name}` : ""}`),
     title: (page, alarms) => `${alarms > 0 ? `(${alarms}) ` : ""}${page} – orbwatch`,
     badge: (page, alarms) => (alarms > 0 ? `${page}（${alarms}）` : page),
@@ -151,6 +152,7 @@ export const texts = {
     refusal: (why) => `拒否されました: ${why}`,
     waiting: (why) => `応答がありません（${why}）。再試行しています`,
     notWatched: "このカメラは監視されていないため、表示も位置合わせもできません。ログを見てください。",
+    readOnly: "位置合わせには、据え付け担当者の役割が必要です。",
   },
   cards: {
     titles: { state: "状態", cameras: "カメラ", views: "ビュー", health: "健全性",
@@ -227,6 +229,7 @@ export const texts = {
   filesRefused: (why) => `ファイルが無効なため、最後の有効な設定で動作しています: ${why}`,
   uploadFiles: "このコンピューターからアップロード",
   notUtf8: (name) => `${name} は UTF-8 のテキストではありません`,
+  unreadable: (name) => `${name} を読み取れません。変更されたか、ディスクが取り外されました。もう一度選択してください`,
   nothingChanged: "変更はありません。",
   checked: (names) => `有効です。変更: ${names || "なし"}。`,
   log: "ログ",
@@ -247,6 +250,7 @@ export const texts = {
   cleanBall: {
     help: "球を清掃してから、その見え方を装置に学習させます。後から付いた汚れは、これを基準に測られます。",
     run: "きれいな球を学習",
+    readOnly: "学習には、オペレーターの役割が必要です。",
   },
   register: {
     run: "登録",
@@ -274,6 +278,7 @@ export const texts = {
     pixel: "指定した画素、px",
     residual: "指定と投影の差、px",
     outlier: "ほかの点と矛盾",
+    list: (numbers) => numbers.join(", "),
   },
   sceneView: {
     title: "ビューの中の機械",
@@ -307,6 +312,8 @@ export const texts = {
   recordings: {
     kinds: { alarm: "アラーム", command: "コマンドによる", laser_on: "レーザーがオンになった", layer: "層が変わった",
       line: "デジタル入力" },
+    raised: (region, signal, level, amount) => [`${region}: ${signal}`, level, amount].filter(Boolean).join("、"),
+    lineActive: (name) => `デジタル入力 ${name} が有効になった`,
     record: "今の状況を記録",
     all: "すべて",
     filters: { kind: "原因", part: "部品名に含む", layer: "層", since: (zone) => `開始日時 (${zone})`,
@@ -456,9 +463,12 @@ export const texts = {
     threshold: "高温部のしきい値、°C または最大値の %",
     add: "領域を追加",
     isThere: (name) => `領域 ${name} はすでにあります`,
+    isRemoved: (name) => `領域 ${name} は削除される予定です。先にその変更を採用するか、別の名前にしてください`,
     noSurface: "ビューのその位置には機械の面がありません",
     changes: "レシピの変更",
     forget: "変更を破棄",
+    unsent: ({ number, name }) => `レシピ ${number}${name ? `（${name}）` : ""}の未送信の変更があります。` +
+      "そのレシピの実行中に再び表示されます。",
     copyAs: "レシピを別名でコピー",
     copyNumber: "番号",
     copyHelp: "上の変更は、この名前の独立したファイルの新しいレシピに入り、元のレシピはそのまま残ります。試行して確定すると、番号で選択できます。",
