@@ -15,4 +15,17 @@ inline bool is_full(const std::filesystem::path& folder) {
   return !error && space.available < kLeast;
 }
 
+/// Bytes of the files in a folder; those that vanish meanwhile do not count. Reentrant.
+inline std::uint64_t bytes_in(const std::filesystem::path& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    std::error_code vanished;
+    const std::uint64_t size = it->file_size(vanished);
+    if (!vanished) bytes += size;
+  }
+  return bytes;
+}
+
 }  // namespace orbwatch::app::recorder

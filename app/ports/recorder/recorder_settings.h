@@ -37,9 +37,11 @@ template <class Visitor>
 void visit(Visitor& v, RecorderSettings& recorder) {
   v.required("folder", recorder.folder,
              "Folder for the recordings, MCAP files with the signals, alarms and machine state of "
-             "every frame set; ROS 2, Foxglove and Python read them");
+             "every frame set; ROS 2, Foxglove and Python read them; a folder outside the state "
+             "folder needs ReadWritePaths= in the unit");
   v.optional("limit_mib", recorder.limit_mib, Range::between(256, 1e9),
-             "Limit of all recordings together, MiB; a further one deletes the oldest");
+             "Limit of all recordings together, MiB; a further one deletes the oldest. Events that "
+             "are kept leave at least a quarter of it to the others");
   v.optional("reserve_mib", recorder.reserve_mib, Range::between(16, 1e9),
              "Free space on the disk below which the oldest recordings are deleted, MiB; if there "
              "is none left, recording waits");

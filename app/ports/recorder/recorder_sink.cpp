@@ -45,6 +45,10 @@ bool RecorderSink::works() const {
   return !has_fault_ && !is_silent;
 }
 
+void RecorderSink::accept_format(std::size_t camera, const hal::StreamFormat& format) {
+  if (pictures_) pictures_->accept_format(camera, format);
+}
+
 void RecorderSink::accept_frames(const hal::FrameSet& set) {
   if (pictures_) pictures_->accept_frames(set);
 }
@@ -71,6 +75,7 @@ bool RecorderSink::request_event() {
 
 void RecorderSink::run() {
   while (thread_.wait_until(next_wake())) record_all();
+  if (pictures_) pictures_->fire_waiting();
   record_all();
   if (pictures_) {
     if (const auto ended = pictures_->end(); !ended) give_up(ended.error().message);
@@ -144,9 +149,7 @@ Result<> RecorderSink::begin() {
   }
   const Utc utc = std::chrono::system_clock::now();
   const std::filesystem::path path = folder_.name_for(utc);
-  const auto removed = folder_.make_room(path, utc);
-  if (!removed) return tl::unexpected(removed.error());
-  counters_.removed += static_cast<std::uint64_t>(*removed);
+  if (auto made = make_room(path, utc); !made) return made;
   auto file = recorder::LogFile::create(path, texts_, utc);
   if (!file) return fail(file.error().message);
   file_.emplace(std::move(*file));
@@ -168,8 +171,14 @@ Result<> RecorderSink::flush(hal::TimePoint now) {
   if (!flushed) return fail(flushed.error().message);
   count_flushed();
   if (auto written = pictures_ ? pictures_->flush() : Result<>(); !written) return written;
-  return folder_.make_room(file_->path(), std::chrono::system_clock::now())
-      .map([this](int removed) { counters_.removed += static_cast<std::uint64_t>(removed); });
+  return make_room(file_->path(), std::chrono::system_clock::now());
+}
+
+Result<> RecorderSink::make_room(const std::filesystem::path& log, Utc utc) {
+  return folder_.make_room(log, utc).map([this](int removed) {
+    counters_.removed += static_cast<std::uint64_t>(removed);
+    has_pin_fault_ = !folder_.pin_fault().empty();
+  });
 }
 
 void RecorderSink::end() {
@@ -204,7 +213,7 @@ recorder::RecorderStatistics RecorderSink::statistics() const {
   recorder::RecorderStatistics statistics = counters_.read();
   statistics.lost += states_.drops() + events_.drops();
   if (pictures_) pictures_->add_figures(statistics);
-  statistics.fault = !works();
+  statistics.fault = !works() || has_pin_fault_;
   const std::chrono::duration<double, std::ratio<86400>> days = hal::Clock::now() - started_;
   statistics.per_day = static_cast<double>(statistics.bytes) / (1 << 20) / days.count();
   return statistics;

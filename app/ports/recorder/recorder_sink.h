@@ -21,8 +21,9 @@ namespace orbwatch::app {
 /// Records signals, alarms and machine state of every frame set into files of an hour, on a thread
 /// of its own, and events with pictures: no frame set waits for the disk, and every loss is
 /// counted. A disk that is full, read-only, gone or silent for 10 s is a fault; recording goes on
-/// when the disk does. A power cut costs at most the last second. Thread rule: as Sink;
-/// request_event() and statistics() on any thread.
+/// when the disk does. Pinned events that leave less than a quarter of limit_mib are a fault in the
+/// statistics alone, because recording goes on. A power cut costs at most the last second. Thread
+/// rule: as Sink; request_event() and statistics() on any thread.
 class RecorderSink final : public Sink {
  public:
   /// `texts` are attached to every recording. `cameras` by index, for events.
@@ -32,18 +33,21 @@ class RecorderSink final : public Sink {
 
   /// Starts the thread, which prepares the folder and tries again while that fails.
   Result<> start() override;
-  /// Records what has arrived and finishes the file.
+  /// Records what has arrived, also events that wait for a frame set, and finishes the file. After
+  /// the last accept().
   void stop() override { thread_.stop(); }
   bool works() const override;
   std::chrono::nanoseconds cpu_time() const override { return thread_.cpu_time(); }
   std::vector<InterfaceMetric> metrics() const override;
 
+  void accept_format(std::size_t camera, const hal::StreamFormat& format) override;
   void accept_frames(const hal::FrameSet& set) override;
   void accept(const ViewPtr&) override {}  // the cameras' own pictures are recorded
   void accept(const Status& status) override;
   void accept_event(const AlarmNotice& notice) override;
 
-  /// Records an event with pictures around the next frame set. False: none are configured.
+  /// Records an event with pictures around the next frame set, see recorder::EventTriggers. False:
+  /// none are configured.
   bool request_event();
 
   recorder::RecorderStatistics statistics() const;
@@ -70,6 +74,7 @@ class RecorderSink final : public Sink {
   Result<> keep(recorder::LogMessage message, std::uint64_t& unflushed);
   Result<> begin();
   Result<> flush(hal::TimePoint now);
+  Result<> make_room(const std::filesystem::path& log, recorder::Utc utc);
   void end();
   void count_flushed();
   void give_up(const std::string& reason);
@@ -85,6 +90,7 @@ class RecorderSink final : public Sink {
 
   hal::TimePoint started_{};
   std::atomic<bool> has_fault_{false};
+  std::atomic<bool> has_pin_fault_{false};
   std::atomic<hal::TimePoint> busy_since_{hal::TimePoint{}};  ///< the epoch: waits for work
   recorder::RecorderCounters counters_;
   std::optional<recorder::EventRecorder> pictures_;  ///< of events

@@ -27,14 +27,16 @@ inline constexpr Quantity kRingSpan{"s", 0.01, 0, 1e6};
         "Triggers without an event, or events not recorded to their end: the disk failed, or " \
         "too many events at once")
 
-#define ORBWATCH_RECORDER_FIGURES(FIELD)                                                \
-  FIELD(bool, fault, kFlag, "The disk cannot be written, or is silent: see the log")    \
-  FIELD(double, per_day, kBytesPerDay, "Data written per day, at the rate since start") \
-  FIELD(std::uint64_t, triggers_joined, kCount,                                         \
-        "Triggers that extended an event instead of beginning one")                     \
-  FIELD(std::uint64_t, pictures_lost, kCount,                                           \
-        "Pictures that found no room in the ring: the disk or coding did not keep up")  \
-  FIELD(double, ring_used, kRingBytes, "Memory of the ring that pictures take")         \
+#define ORBWATCH_RECORDER_FIGURES(FIELD)                                                   \
+  FIELD(bool, fault, kFlag,                                                                \
+        "The disk cannot be written, or is silent, or pinned events take more than three " \
+        "quarters of limit_mib: see the log")                                              \
+  FIELD(double, per_day, kBytesPerDay, "Data written per day, at the rate since start")    \
+  FIELD(std::uint64_t, triggers_joined, kCount,                                            \
+        "Triggers that extended an event instead of beginning one")                        \
+  FIELD(std::uint64_t, pictures_lost, kCount,                                              \
+        "Pictures that found no room in the ring: the disk or coding did not keep up")     \
+  FIELD(double, ring_used, kRingBytes, "Memory of the ring that pictures take")            \
   FIELD(double, ring_span, kRingSpan, "Time from the oldest picture in the ring to the newest")
 
 /// Figures of the recorder since start.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/model/status/utc_text.h"
 #include "app/ports/recorder/disk_space.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "app/ports/recorder/folder_change.h"
@@ -32,6 +33,8 @@ std::string text_of(const fs::path& folder, const std::error_code& error) {
   return folder.string() + ": " + error.message();
 }
 
+std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes / kMebibyte) + " MiB"; }
+
 }  // namespace
 
 Result<> RecordingFolder::prepare() {
@@ -41,11 +44,12 @@ Result<> RecordingFolder::prepare() {
   const auto recordings = list();
   if (!recordings) return tl::unexpected(recordings.error());
   for (const Recording& recording : *recordings) {
-    if (unfinished_.contains(recording.file)) continue;
+    if (refused_.contains(recording.file)) continue;
     const auto completed = hal::mcap::complete(recording.file);
     if (!completed && is_full(settings_.folder)) return fail(completed.error().message);
     if (!completed) {
-      unfinished_.insert(recording.file);
+      if (completed.error().number == 0) refused_.insert(recording.file);
+      if (!unfinished_.insert(recording.file).second) continue;
       log_line(LogLevel::Warning, "recorder: " + recording.file.string() +
                                       " cannot be finished: " + completed.error().message);
     } else if (!completed->was_finished) {
@@ -97,15 +101,25 @@ Result<> RecordingFolder::update(const fs::path& current) {
   const auto has_other_events = index_.update();
   if (!has_other_events) return tl::unexpected(has_other_events.error());
   if (!has_other_logs && !*has_other_events) return {};
-  still_bytes_ = 0;
+  still_bytes_ = pinned_bytes_ = 0;
   for (const Recording& log : logs_) still_bytes_ += log.file == current_ ? 0 : log.bytes;
   for (const StoredEvent& event : index_.events()) {
-    still_bytes_ += event.is_finished ? event.bytes : 0;
+    if (event.is_finished) (event.is_pinned ? pinned_bytes_ : still_bytes_) += event.bytes;
   }
   return {};
 }
 
-/// Bytes of all recordings.
+std::uint64_t RecordingFolder::limit() const {
+  return static_cast<std::uint64_t>(settings_.limit_mib) * kMebibyte;
+}
+
+/// Limit of the recordings that are not pinned. A quarter is left to them, since new ones would
+/// otherwise be deleted as soon as they are finished.
+std::uint64_t RecordingFolder::room() const {
+  return limit() - std::min(pinned_bytes_, limit() / 4 * 3);
+}
+
+/// Bytes of all recordings that are not pinned.
 std::uint64_t RecordingFolder::bytes() const {
   std::error_code error;
   const std::uintmax_t current = fs::file_size(current_, error);
@@ -117,8 +131,11 @@ std::uint64_t RecordingFolder::bytes() const {
   return bytes;
 }
 
-/// Recordings that may be deleted, the oldest first.
-std::vector<RecordingFolder::Deletable> RecordingFolder::deletable() const {
+/// Recordings that may be deleted, in that order: those in the future, then the others, the oldest
+/// first. The next day is not the future, since after a small step back of the clock the newest
+/// recordings are in it.
+std::vector<RecordingFolder::Deletable> RecordingFolder::deletable(
+    std::chrono::system_clock::time_point utc) const {
   std::vector<Deletable> deletable;
   for (const Recording& log : logs_) {
     if (log.file == current_) continue;
@@ -134,7 +151,10 @@ std::vector<RecordingFolder::Deletable> RecordingFolder::deletable() const {
     if (event.is_pinned || !event.is_finished) continue;
     deletable.push_back({event.name, event.bytes, [this, &event] { return remove(event); }});
   }
-  std::ranges::sort(deletable, {}, &Deletable::begun);
+  const std::string present = compact_utc_text(utc + std::chrono::days(1)).value_or("");
+  std::ranges::sort(deletable, {}, [&](const Deletable& one) {
+    return std::pair(one.begun <= present, std::string_view(one.begun));
+  });
   return deletable;
 }
 
@@ -143,12 +163,34 @@ Result<bool> RecordingFolder::remove(const StoredEvent& listed) const {
   const auto event = events_.find(listed.name);
   if (!event) return true;  // another program was quicker
   if (event->is_pinned || !event->is_finished) return false;
-  return events_.remove(*event).map([] { return true; });
+  return events_.remove_unless_pinned(*event);
+}
+
+/// True: the recording was deleted. A failure is logged once and retried with the others, because a
+/// disk may be read-only for a while.
+bool RecordingFolder::is_removed(const std::string& name, const Result<bool>& done) {
+  if (!done && undeletable_.insert(name).second) {
+    log_line(LogLevel::Warning, "recorder: " + name + " cannot be deleted, others are instead: " +
+                                    done.error().message);
+  }
+  return done.value_or(false);
+}
+
+/// Follows the difference of both clocks. True: it has been the same within a minute for an hour. A
+/// clock without a battery may be years ahead until the network corrects it.
+bool RecordingFolder::is_clock_settled(std::chrono::system_clock::time_point utc,
+                                       hal::TimePoint now) {
+  const std::chrono::nanoseconds offset = utc.time_since_epoch() - now.time_since_epoch();
+  if (!clock_offset_ || std::chrono::abs(offset - *clock_offset_) > std::chrono::minutes(1)) {
+    clock_offset_ = offset;
+    settled_since_ = now;
+  }
+  return now - settled_since_ >= std::chrono::hours(1);
 }
 
 /// Deletes events whose trigger is too long ago. Before 1970, as without a battery for the clock,
 /// none is.
-Result<int> RecordingFolder::remove_old(std::chrono::system_clock::time_point utc) const {
+int RecordingFolder::remove_old(std::chrono::system_clock::time_point utc) {
   constexpr int kMostAtOnce = 10;
   const std::chrono::days limit{settings_.events ? settings_.events->keep_days : 0};
   if (limit.count() == 0 || utc - limit <= Utc{}) return 0;
@@ -157,24 +199,38 @@ Result<int> RecordingFolder::remove_old(std::chrono::system_clock::time_point ut
   for (const StoredEvent& event : index_.events()) {
     if (event.name >= oldest || removed == kMostAtOnce) break;
     if (event.is_pinned || !event.is_finished) continue;
-    const auto done = remove(event);
-    if (!done) return tl::unexpected(done.error());
-    removed += *done ? 1 : 0;
+    removed += is_removed(event.name, remove(event)) ? 1 : 0;
   }
   return removed;
 }
 
 Result<int> RecordingFolder::make_room(const fs::path& current,
-                                       std::chrono::system_clock::time_point utc) {
-  const auto old = update(current).and_then([&] { return remove_old(utc); });
+                                       std::chrono::system_clock::time_point utc,
+                                       hal::TimePoint now) {
+  const bool is_settled = is_clock_settled(utc, now);
+  const auto old = update(current).map([&] { return is_settled ? remove_old(utc) : 0; });
   if (!old) return old;
-  return update(current).and_then([this] { return remove_for_room(); }).map([&](int removed) {
-    return *old + removed;
-  });
+  if (const auto updated = update(current); !updated) return tl::unexpected(updated.error());
+  check_pins();
+  return remove_for_room(utc).map([&](int removed) { return *old + removed; });
 }
 
-Result<int> RecordingFolder::remove_for_room() const {
-  const auto limit = static_cast<std::uint64_t>(settings_.limit_mib) * kMebibyte;
+void RecordingFolder::check_pins() {
+  const bool is_fault = pinned_bytes_ > limit() / 4 * 3;
+  if (is_fault == !pin_fault_.empty()) return;
+  if (!is_fault) {
+    pin_fault_.clear();
+    log_line(LogLevel::Info, "recorder: pinned events leave a quarter of limit_mib again");
+    return;
+  }
+  pin_fault_ = settings_.folder.string() + ": pinned events take " + mebibytes(pinned_bytes_) +
+               " of limit_mib = " + std::to_string(settings_.limit_mib) +
+               "; at most three quarters are right, so unpin or delete some, or set a higher "
+               "limit_mib; other recordings are deleted above a quarter of it";
+  log_line(LogLevel::Warning, "recorder: " + pin_fault_);
+}
+
+Result<int> RecordingFolder::remove_for_room(std::chrono::system_clock::time_point utc) {
   const auto reserve = static_cast<std::uint64_t>(settings_.reserve_mib) * kMebibyte;
   std::uint64_t left = bytes();
   std::optional<std::vector<Deletable>> all;
@@ -185,19 +241,19 @@ Result<int> RecordingFolder::remove_for_room() const {
     const fs::space_info space = fs::space(settings_.folder, error);
     if (error) return fail(text_of(settings_.folder, error));
     const bool is_short = space.available < reserve;
-    if (left <= limit && !is_short) return removed;
-    if (!all) all = deletable();
+    if (left <= room() && !is_short) return removed;
+    if (!all) all = deletable(utc);
+    if (!is_short && oldest + 1 >= all->size()) return removed;  // the newest stays
     if (oldest == all->size()) {
-      if (!is_short) return removed;
-      return fail(settings_.folder.string() + " has " +
-                  std::to_string(space.available / kMebibyte) +
-                  " MiB left, less than reserve_mib, and no recording to delete");
+      return fail(settings_.folder.string() + " has " + mebibytes(space.available) +
+                  " left, less than reserve_mib, and no recording that can be deleted; pinned "
+                  "events take " +
+                  mebibytes(pinned_bytes_));
     }
-    const auto done = (*all)[oldest].remove();
-    if (!done) return tl::unexpected(done.error());
-    left -= *done ? (*all)[oldest].bytes : 0;
-    removed += *done ? 1 : 0;
-    ++oldest;
+    const Deletable& next = (*all)[oldest++];
+    if (!is_removed(next.begun, next.remove())) continue;
+    left -= next.bytes;
+    ++removed;
   }
 }
 

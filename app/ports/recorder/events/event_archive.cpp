@@ -10,6 +10,10 @@
 namespace orbwatch::app::recorder {
 namespace {
 
+tl::unexpected<Error> being_recorded(const StoredEvent& stored) {
+  return fail("the event " + stored.name + " is being recorded");
+}
+
 /// Without a summary, which another program may have damaged, only what the folder says.
 RecordedEvent recorded(const StoredEvent& stored) {
   RecordedEvent event;
@@ -24,6 +28,8 @@ RecordedEvent recorded(const StoredEvent& stored) {
   }
   event.trigger = std::move(summary->trigger);
   event.text = std::move(summary->text);
+  event.alarm = std::move(summary->alarm);
+  event.line = std::move(summary->line);
   event.first = std::move(summary->first);
   event.triggered = std::move(summary->triggered);
   event.last = std::move(summary->last);
@@ -58,8 +64,11 @@ Result<std::shared_ptr<const std::vector<RecordedEvent>>> EventArchive::list() {
 
 Result<StoredEvent> EventArchive::finished(std::string_view event) const {
   return folder_.find(event).and_then([](StoredEvent stored) -> Result<StoredEvent> {
-    if (!stored.is_finished) return fail("the event " + stored.name + " is being recorded");
-    return stored;
+    if (stored.is_finished) return stored;
+    if (EventFolder::is_being_recorded(stored)) return being_recorded(stored);
+    return fail("the event " + stored.name +
+                " was not recorded to its end; the next start of orbwatchd finishes it, or its log "
+                "states why not");
   });
 }
 
@@ -103,8 +112,10 @@ Result<> EventArchive::set_pinned(std::string_view event, bool is_pinned) {
 }
 
 Result<> EventArchive::remove(std::string_view event) {
-  return finished(event).and_then(
-      [this](const StoredEvent& stored) { return folder_.remove(stored); });
+  return folder_.find(event).and_then([this](const StoredEvent& stored) -> Result<> {
+    if (EventFolder::is_being_recorded(stored)) return being_recorded(stored);
+    return folder_.remove(stored);
+  });
 }
 
 }  // namespace orbwatch::app::recorder

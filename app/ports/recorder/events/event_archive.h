@@ -30,7 +30,7 @@ class EventArchive final : public RecordedEvents {
   Result<std::vector<RecordedRecipeChange>> recipes(std::string_view event) override;
   Result<RecordedCourse> course(std::string_view event, const std::string& region,
                                 const std::string& figure) override;
-  /// Error also: it is being recorded.
+  /// Error also: it is being recorded, or was not finished.
   Result<> set_pinned(std::string_view event, bool is_pinned) override;
   /// Error also: it is being recorded.
   Result<> remove(std::string_view event) override;

@@ -76,8 +76,11 @@ FileResult<> EventFile::add_camera(const KeptFrame& frame) {
   hal::StreamFormat format = camera.format;
   format.format = frame.picture.format;
   format.colour_space = frame.picture.colour_space;
+  format.kelvin_per_count = frame.kelvin_per_count;
+  format.kelvin_offset = frame.kelvin_offset;
   Channels channels;
   channels.is_raw = is_raw(frame);
+  channels.kelvin_per_count = frame.kelvin_per_count;
   auto metadata = recording::metadata_of(format);
   if (!channels.is_raw && frame.jpeg.empty()) {
     metadata.emplace_back(recording::kJpegQuality, std::to_string(settings_->quality));
@@ -131,6 +134,7 @@ FileResult<bool> EventFile::write(const KeptFrame& frame) {
   }
   const Channels& channels = *channels_[frame.camera];
   if (channels.is_raw != is_raw(frame)) return false;
+  if (channels.kelvin_per_count != frame.kelvin_per_count) return false;
   const RecordedCamera& camera = (*cameras_)[frame.camera];
   const std::uint64_t stamp = nanoseconds(utc(frame.stamp));
   const auto header = recording::header_at(stamp, camera.name);

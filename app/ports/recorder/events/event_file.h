@@ -33,8 +33,8 @@ class EventFile {
 
   hal::mcap::FileResult<> write(const LogMessage& message);
   /// Codes and writes a picture; JPEG data of a camera is written as it is. False: the picture is
-  /// left out, because its camera has changed from pixels to JPEG data, or back, since the first
-  /// one. Errors: of the disk; a picture that cannot be coded.
+  /// left out, because its camera has changed its scale, or from pixels to JPEG data, or back,
+  /// since the first one. Errors: of the disk; a picture that cannot be coded.
   hal::mcap::FileResult<bool> write(const KeptFrame& frame);
 
   /// Hands everything to the disk, and waits until it is there.
@@ -54,6 +54,7 @@ class EventFile {
   struct Channels {
     std::uint16_t pictures = 0, places = 0;
     bool is_raw = false;
+    double kelvin_per_count = 0;
   };
 
   EventFile(LogFile log, const EventSettings& settings, const std::vector<RecordedCamera>& cameras,

@@ -18,6 +18,7 @@
 #include "app/ports/recorder/recorded_utc.h"
 #include "hal/atomic_file.h"
 #include "hal/mcap/completion.h"
+#include "hal/mcap/file.h"
 #include "hal/mcap/reader.h"
 #include "hal/recording/topics.h"
 
@@ -49,23 +50,17 @@ bool is_left_behind(const fs::path& folder) {
          changed < fs::file_time_type::clock::now() - std::chrono::hours(1);
 }
 
-/// Bytes of the files in a folder; those that vanish meanwhile do not count.
-std::uint64_t bytes_in(const fs::path& folder) {
-  std::uint64_t bytes = 0;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code vanished;
-    const std::uint64_t size = it->file_size(vanished);
-    if (!vanished) bytes += size;
-  }
-  return bytes;
-}
-
 StoredEvent stored(const fs::path& folder, std::string name, bool is_finished) {
   const auto changed = settled_change(folder);  // before it is read
   std::error_code none;
   return {std::move(name), folder, bytes_in(folder), fs::exists(folder / kEventPin, none),
           is_finished,     changed};
+}
+
+/// False: the event has no pin for certain.
+bool may_be_pinned(const fs::path& folder) {
+  std::error_code unknown;
+  return fs::exists(folder / kEventPin, unknown) || unknown;
 }
 
 /// The event of this folder in a list, if its folder has not changed since; null otherwise.
@@ -106,33 +101,60 @@ Result<> EventFolder::prepare() {
   for (fs::directory_iterator it(root_, error), end; !error && it != end; it.increment(error)) {
     folders.push_back(it->path());
   }
+  if (error) return failure(root_, error);
   for (const fs::path& folder : folders) {
-    const bool is_doomed = !name_before(folder, kDeleted).empty() || is_left_behind(folder);
-    if (is_doomed) fs::remove_all(folder, error);
-    if (name_before(folder, kUnfinished).empty() || given_up_.contains(folder)) continue;
+    if (refused_.contains(folder)) continue;
+    const bool is_deleted = !name_before(folder, kDeleted).empty();
+    if (is_deleted && may_be_pinned(folder)) {
+      undo_deletion(folder);
+    } else if (is_deleted || is_left_behind(folder)) {
+      end_deletion(folder);
+    }
+    if (name_before(folder, kUnfinished).empty()) continue;
     const auto recovered = recover(folder);
     if (!recovered && is_full(root_)) return recovered;
-    if (!recovered) given_up_.insert(folder);
+    if (!recovered && !logged_.insert(folder).second) continue;
     log_line(recovered ? LogLevel::Info : LogLevel::Warning,
              "recorder: " + folder.string() +
                  (recovered ? " was not recorded to its end; what there is of it is kept"
                             : " cannot be finished: " + recovered.error().message));
   }
-  if (error) return failure(root_, error);
   return {};
 }
 
+void EventFolder::end_deletion(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (!error || !logged_.insert(folder).second) return;
+  log_line(LogLevel::Warning,
+           "recorder: " + folder.string() + " cannot be deleted: " + error.message());
+}
+
+/// Gives an event its name back that was pinned before its deletion for room began; that was
+/// interrupted before it came to the pin.
+void EventFolder::undo_deletion(const fs::path& folder) {
+  const auto kept = finish(folder);
+  if (!kept && !logged_.insert(folder).second) return;
+  log_line(kept ? LogLevel::Info : LogLevel::Warning,
+           "recorder: " + folder.string() +
+               (kept ? " is or may be pinned, so its deletion is undone"
+                     : " is or may be pinned, but its deletion cannot be undone: " +
+                           kept.error().message));
+}
+
 /// An event without a recording, because its recorder ended while it made the folder, is deleted.
-Result<> EventFolder::recover(const fs::path& unfinished) const {
+Result<> EventFolder::recover(const fs::path& unfinished) {
   std::error_code error;
   if (auto removed = hal::remove_unfinished(unfinished); !removed) return removed;
-  if (!fs::exists(unfinished / kEventSummary, error) ||
-      !fs::exists(unfinished / kEventFile, error)) {
+  const bool has_recording =
+      fs::exists(unfinished / kEventSummary, error) && fs::exists(unfinished / kEventFile, error);
+  if (!has_recording && !error) {
     fs::remove_all(unfinished, error);
-    if (error) return failure(unfinished, error);
-    return {};
+    if (!error) return {};
   }
+  if (error) return failure(unfinished, error);
   const auto completed = hal::mcap::complete(unfinished / kEventFile);
+  if (!completed && completed.error().number == 0) refused_.insert(unfinished);
   if (!completed) return fail(completed.error().message);
   return update_summary(unfinished).and_then([&] { return finish(unfinished); });
 }
@@ -195,13 +217,57 @@ Result<> EventFolder::finish(const fs::path& unfinished) const {
   return hal::sync_folder(root_);
 }
 
-Result<> EventFolder::remove(const StoredEvent& event) const {
+/// A recorder locks the file until the event ends; a new file may not be locked yet. A file that
+/// cannot be opened for any other reason, such as too many open files, may be locked.
+bool EventFolder::is_being_recorded(const StoredEvent& event) {
+  constexpr std::chrono::minutes kMoment{1};
+  if (event.is_finished) return false;
   std::error_code error;
-  const fs::path doomed = root_ / (event.name + kDeleted.data());
+  const auto changed = fs::last_write_time(event.folder / kEventFile, error);
+  const auto age = fs::file_time_type::clock::now() - changed;
+  if (error || std::chrono::abs(age) < kMoment) return true;
+  const auto opened =
+      hal::mcap::File::open(event.folder / kEventFile, hal::mcap::File::Access::Change);
+  return !opened;
+}
+
+Result<> EventFolder::check_finished(const StoredEvent& event) {
+  if (event.is_finished) return {};
+  if (is_being_recorded(event)) {
+    return fail("the event " + event.name + " is being recorded; export it afterwards");
+  }
+  return fail("the event " + event.name +
+              " is not complete, since its recorder ended early; orbwatchd completes it when it "
+              "starts with these recordings, and orbwatch events rm deletes it");
+}
+
+/// Gives an event the name of one that is being deleted, under which no pin reaches it any more.
+Result<fs::path> EventFolder::doom(const StoredEvent& event) const {
+  std::error_code error;
+  fs::path doomed = root_ / (event.name + kDeleted.data());
   fs::rename(event.folder, doomed, error);
-  if (!error) fs::remove_all(doomed, error);
   if (error) return failure(event.folder, error);
-  return {};
+  return doomed;
+}
+
+Result<> EventFolder::remove(const StoredEvent& event) const {
+  return doom(event).and_then([&](const fs::path& doomed) -> Result<> {
+    std::error_code error;
+    fs::remove(doomed / kEventPin, error);  // with it, an interrupted deletion is undone
+    if (!error) fs::remove_all(doomed, error);
+    if (error) return failure(event.folder, error);
+    return {};
+  });
+}
+
+Result<bool> EventFolder::remove_unless_pinned(const StoredEvent& event) const {
+  return doom(event).and_then([&](const fs::path& doomed) -> Result<bool> {
+    if (may_be_pinned(doomed)) return finish(doomed).map([] { return false; });
+    std::error_code error;
+    fs::remove_all(doomed, error);
+    if (error) return failure(event.folder, error);
+    return true;
+  });
 }
 
 Result<> EventFolder::set_pinned(const StoredEvent& event, bool is_pinned) {

@@ -32,17 +32,17 @@ struct StoredEvent {
 /// The folder `events` of recordings: one folder for each event, which is the truth; no index
 /// is stored beside it. An event that is being recorded has the name NAME.unfinished, one that is
 /// being deleted NAME.deleted, one that is being restored NAME.restoring. What has other names is
-/// not touched. Thread-bound; waits for the
-/// disk.
+/// not touched. Thread-bound; waits for the disk.
 class EventFolder {
  public:
   explicit EventFolder(const std::filesystem::path& recordings) : root_(recordings / "events") {}
 
   const std::filesystem::path& path() const { return root_; }
 
-  /// Finishes events whose recorder ended early, ends deletions, and deletes what an interrupted
-  /// restore left an hour ago or earlier. What cannot be finished is
-  /// logged once and stays. Errors: the folder; a full disk, for which they wait.
+  /// Finishes events whose recorder ended early, ends deletions, except of events that are pinned,
+  /// which are kept, and deletes what an interrupted restore left an hour ago or earlier. What the
+  /// disk prevents is logged once and tried again by the next call; an event whose content is
+  /// refused stays. Errors: the folder; a full disk, for which they wait.
   Result<> prepare();
 
   /// The oldest first by their names; none without the folder. Those of the list `known` whose
@@ -59,17 +59,29 @@ class EventFolder {
   /// there is such an event.
   Result<> finish(const std::filesystem::path& unfinished) const;
 
-  /// Deletes an event, whole or not at all.
+  /// True also for an event that may be, because its recording cannot be opened. False also for one
+  /// that is not finished since its recorder ended early.
+  static bool is_being_recorded(const StoredEvent& event);
+  /// Error: the event is not finished, with the reason and the remedy.
+  static Result<> check_finished(const StoredEvent& event);
+
+  /// Deletes an event, also a pinned one, whole or not at all.
   Result<> remove(const StoredEvent& event) const;
+  /// The same for room. False: it was pinned before it could be deleted, and stays.
+  Result<bool> remove_unless_pinned(const StoredEvent& event) const;
   /// Protects a finished event from being deleted for room, or ends that; the folder of all events
   /// counts as changed.
   static Result<> set_pinned(const StoredEvent& event, bool is_pinned);
 
  private:
-  Result<> recover(const std::filesystem::path& unfinished) const;
+  Result<> recover(const std::filesystem::path& unfinished);
+  void end_deletion(const std::filesystem::path& folder);
+  void undo_deletion(const std::filesystem::path& folder);
+  Result<std::filesystem::path> doom(const StoredEvent& event) const;
 
   std::filesystem::path root_;
-  std::set<std::filesystem::path> given_up_;  ///< those that cannot be finished
+  std::set<std::filesystem::path> refused_;  ///< those whose content cannot be finished
+  std::set<std::filesystem::path> logged_;   ///< those that could not be finished or deleted
 };
 
 }  // namespace orbwatch::app::recorder

@@ -7,10 +7,15 @@
 #include "app/ports/recorder/recorded_utc.h"
 #include "hal/mcap/reader.h"
 #include "hal/recording/camera_channels.h"
+#include "hal/recording/camera_recording.h"
 #include "hal/recording/picture_region.h"
+#include "hal/recording/recorded_part.h"
 
 namespace orbwatch::app::recorder {
 namespace {
+
+using hal::recording::CameraIndex;
+using hal::recording::CameraRecording;
 
 constexpr int kQuality = 90;
 
@@ -23,19 +28,27 @@ void add_part(const hal::recording::PictureRegion& region, RecordedFrames& frame
   if (!is_same) frames.parts.push_back(part);
 }
 
+/// Index of a camera's pictures. Errors: those of index_camera(), with the file.
+Result<CameraIndex> index_in(hal::mcap::Reader& reader, const std::filesystem::path& recording,
+                             std::string_view camera) {
+  return hal::recording::index_camera(reader, camera).map_error([&](const Error& error) {
+    return Error{recording.string() + ": " + error.message};
+  });
+}
+
 }  // namespace
 
 Result<std::vector<RecordedFrames>> EventPictures::frames(
     const std::filesystem::path& recording) const {
-  const auto reader = hal::mcap::Reader::open(recording);
+  auto reader = hal::mcap::Reader::open_finished(recording);
   if (!reader) return fail(reader.error().message);
   std::vector<RecordedFrames> all;
   for (const std::string& camera : hal::recording::cameras_in(reader->summary())) {
-    const auto pictures = hal::recording::CameraRecording::open(recording, camera);
-    if (!pictures) return tl::unexpected(pictures.error());
+    const auto index = index_in(*reader, recording, camera);
+    if (!index) return tl::unexpected(index.error());
     RecordedFrames& frames = all.emplace_back();
     frames.camera = camera;
-    for (const auto& exposure : pictures->index().exposures) {
+    for (const auto& exposure : index->exposures) {
       add_part(exposure.region, frames);
       frames.times.push_back(utc_text_at(exposure.set_time));
     }
@@ -43,39 +56,38 @@ Result<std::vector<RecordedFrames>> EventPictures::frames(
   return all;
 }
 
-Result<EventPictures::Opened*> EventPictures::open(const std::filesystem::path& recording,
-                                                   std::string_view camera) {
-  if (!opened_ || opened_->recording != recording || opened_->camera != camera) {
-    opened_.reset();
-    auto pictures = hal::recording::CameraRecording::open(recording, camera);
-    if (!pictures) return tl::unexpected(pictures.error());
-    opened_.emplace(Opened{recording, std::string(camera), std::move(*pictures)});
+Result<std::shared_ptr<const CameraIndex>> EventPictures::index_of(
+    const std::filesystem::path& recording, std::string_view camera) {
+  if (!indexed_ || indexed_->recording != recording || indexed_->camera != camera) {
+    indexed_.reset();
+    auto reader = hal::mcap::Reader::open_finished(recording);
+    if (!reader) return fail(reader.error().message);
+    auto index = index_in(*reader, recording, camera);
+    if (!index) return tl::unexpected(index.error());
+    indexed_.emplace(Indexed{recording, std::string(camera),
+                             std::make_shared<const CameraIndex>(std::move(*index))});
   }
-  return &*opened_;
+  return indexed_->index;
 }
 
 Result<std::string> EventPictures::jpeg(const std::filesystem::path& recording,
                                         std::string_view camera, std::size_t frame) {
   const std::lock_guard lock(mutex_);
-  const auto opened = open(recording, camera);
-  if (!opened) return tl::unexpected(opened.error());
-  hal::recording::CameraRecording& pictures = (*opened)->pictures;
-  const hal::recording::CameraIndex& index = pictures.index();
+  const auto found = index_of(recording, camera);
+  if (!found) return tl::unexpected(found.error());
+  const CameraIndex& index = **found;
   if (frame >= index.exposures.size()) {
     return fail("there is no picture " + std::to_string(frame) + "; 0 to " +
                 std::to_string(index.exposures.size() - 1) + " are recorded");
   }
-  const hal::StreamFormat& format = index.format;
-  const int stride = row_bytes(format.format, format.width);
-  whole_.resize(picture_bytes(format.format, static_cast<std::size_t>(stride), format.height));
-  auto picture =
-      MutablePicture::contiguous(format.format, format.width, format.height, whole_.data(), stride);
-  picture.colour_space = format.colour_space;
-  if (const auto read = pictures.read(frame, picture); !read) return tl::unexpected(read.error());
-  const Picture part = hal::recording::part_of(Picture(picture), index.exposures[frame].region);
-  return jpeg_for_people(encoder_, part, kQuality).map([](std::span<const std::uint8_t> jpeg) {
-    return std::string(jpeg.begin(), jpeg.end());
-  });
+  auto pictures = CameraRecording::open(recording, *found);
+  if (!pictures) return tl::unexpected(pictures.error());
+  const auto part = pictures->part(frame);
+  if (!part) return tl::unexpected(part.error());
+  return hal::recording::pixels_of(*part, index.format.colour_space, decoder_, pixels_)
+      .and_then([&](const Picture& shown) { return jpeg_for_people(encoder_, shown, kQuality); })
+      .map([](std::span<const std::uint8_t> jpeg) { return std::string(jpeg.begin(), jpeg.end()); })
+      .map_error([&](const Error& error) { return pictures->named(frame, error); });
 }
 
 }  // namespace orbwatch::app::recorder

@@ -54,6 +54,12 @@ Result<> write_jpeg(const std::filesystem::path& path, std::span<const std::byte
                          std::string_view(reinterpret_cast<const char*>(jpeg.data()), jpeg.size()));
 }
 
+AlarmCause alarm_cause(const AlarmNotice& notice, const StatusNames& names) {
+  return {name_or_number(names.region(notice.recipe, notice.region), notice.region),
+          std::string(operator_text(notice.signal)), notice.event.level, notice.event.value,
+          std::string(quantity_of(alarm_after(notice)).unit)};
+}
+
 }  // namespace
 
 EventRecorder::EventRecorder(const RecorderSettings& settings, std::vector<RecordedCamera> cameras,
@@ -67,7 +73,13 @@ EventRecorder::EventRecorder(const RecorderSettings& settings, std::vector<Recor
       counters_(counters),
       ring_(ring_bytes(settings_), least_bytes(cameras_)),
       triggers_(settings_, names_.process_inputs, ring_, started_),
-      folder_(settings.folder) {}
+      folder_(settings.folder) {
+  for (const RecordedCamera& camera : cameras_) delivered_.push_back(camera.format);
+}
+
+void EventRecorder::accept_format(std::size_t camera, const hal::StreamFormat& format) {
+  delivered_[camera] = format;
+}
 
 /// A frame that was in an earlier set is in the ring already.
 void EventRecorder::accept_frames(const hal::FrameSet& set) {
@@ -88,6 +100,8 @@ void EventRecorder::put(const hal::FrameSet& set, std::size_t camera) {
                  frame.metadata.exposure_start,
                  {picture.width, picture.height, {0, 0, picture.width, picture.height}},
                  picture};
+  kept.kelvin_per_count = delivered_[camera].kelvin_per_count;
+  kept.kelvin_offset = delivered_[camera].kelvin_offset;
   if (!frame.jpeg.empty()) {
     kept.jpeg = frame.jpeg;
   } else if (picture.width == planned.width && picture.height == planned.height) {
@@ -118,6 +132,8 @@ EventSummary EventRecorder::summary_of(const Trigger& trigger, Utc triggered) co
   EventSummary summary;
   summary.trigger = name_of(trigger.kind);
   summary.text = cause_of(trigger);
+  if (trigger.kind == TriggerKind::Alarm) summary.alarm = alarm_cause(trigger.notice, names_);
+  if (trigger.kind == TriggerKind::Line) summary.line = settings_.on_lines[trigger.line];
   summary.triggered = utc_text(triggered).value_or("");
   summary.frame_set = trigger.frame_set;
   summary.recipe = trigger.recipe;
@@ -153,23 +169,16 @@ Result<> EventRecorder::begin(const StartedEvent& started) {
   auto file =
       EventFile::create(*folder / kEventFile, texts_, settings_, cameras_, trigger.stamp, utc);
   if (!file) return fail(file.error().message);
-  running_.push_back({started.window.number,
-                      false,
-                      started.first,
-                      trigger.stamp,
-                      {},
-                      {},
-                      *folder,
-                      std::move(*file),
-                      std::move(summary),
-                      ring_.use().lost});
+  Running event{
+      started.window.number, false, started.first, trigger.stamp, {}, {}, *folder, std::move(*file),
+      std::move(summary)};
   for (const LogMessage& message : recent_) {
     const bool is_in =
         message.stamp >= started.first && message.stamp <= ring_.last_of(started.window.number);
     if (!is_in) continue;
-    auto written = running_.back().file.write(message);
-    if (!written) return fail(written.error().message);
+    if (auto written = event.file.write(message); !written) return as_result(written);
   }
+  running_.push_back(std::move(event));
   return {};
 }
 
@@ -241,7 +250,7 @@ Result<> EventRecorder::finish(Running& event, bool is_interrupted) {
       if (camera == cameras_[i].name) pictures = event.file.pictures()[i];
     }
   }
-  event.summary.lost = ring_.use().lost - event.lost_before + event.left_out;
+  event.summary.lost = ring_.lost_of(event.window) + event.left_out;
   event.summary.is_interrupted = is_interrupted;
   auto finished = as_result(event.file.finish())
                       .and_then([&] { return write_summary(event.folder, event.summary); })

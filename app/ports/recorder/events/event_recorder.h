@@ -33,22 +33,28 @@ namespace orbwatch::app::recorder {
 ///     for (LogMessage& message : all that wait) events.keep(std::move(message));
 ///     is_more = events.end_round();
 ///
-/// Thread rule: accept_frames, accept_event and accept on the pipeline's thread; request and
-/// add_figures on any; the rest on the recorder's.
+/// Thread rule: accept_format, accept_frames, accept_event and accept on the pipeline's thread;
+/// request and add_figures on any; the rest on the recorder's, fire_waiting once the pipeline's
+/// has ended.
 class EventRecorder {
  public:
   /// `cameras` by index in the frame sets; `counters` are the caller's.
   EventRecorder(const RecorderSettings& settings, std::vector<RecordedCamera> cameras,
                 const StatusNames& names, const RecordedTexts& texts, RecorderCounters& counters);
 
+  void accept_format(std::size_t camera, const hal::StreamFormat& format);
   void accept_frames(const hal::FrameSet& set);
   void accept_event(const AlarmNotice& notice) { triggers_.accept(notice); }
-  void accept(const Status& status) { triggers_.accept(status, hal::Clock::now()); }
+  void accept(const Status& status, hal::TimePoint now = hal::Clock::now()) {
+    triggers_.accept(status, now);
+  }
 
   /// Begins an event by command.
   void request() { triggers_.request(); }
   void add_figures(RecorderStatistics& statistics) const;
 
+  /// Triggers what waits for a frame set, because none comes any more. Before the last rounds.
+  void fire_waiting() { triggers_.fire_waiting(); }
   /// Begins the events that were triggered. Error: the disk.
   Result<> begin_round();
   /// Keeps a message for later events, and writes it into those that run. Error: the disk.
@@ -74,10 +80,9 @@ class EventRecorder {
     std::filesystem::path folder;
     EventFile file;
     EventSummary summary;
-    std::uint64_t lost_before = 0;  ///< of the ring, at the start
-    std::uint64_t left_out = 0;     ///< pictures, see EventFile::write()
-    std::uint64_t known_size = 0;   ///< as counted
-    bool has_picture = false;       ///< of the trigger
+    std::uint64_t left_out = 0;    ///< pictures, see EventFile::write()
+    std::uint64_t known_size = 0;  ///< as counted
+    bool has_picture = false;      ///< of the trigger
   };
 
   void put(const hal::FrameSet& set, std::size_t camera);
@@ -91,7 +96,8 @@ class EventRecorder {
 
   const EventSettings settings_;
   const std::vector<RecordedCamera> cameras_;
-  const std::vector<bool> is_recorded_;  ///< by camera
+  std::vector<hal::StreamFormat> delivered_;  ///< formats by camera; the pipeline's thread's
+  const std::vector<bool> is_recorded_;       ///< by camera
   const StatusNames& names_;
   const RecordedTexts& texts_;
   RecorderCounters& counters_;

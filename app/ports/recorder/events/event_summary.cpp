@@ -30,6 +30,15 @@ Json object_of(const std::vector<std::pair<std::string, Value>>& entries) {
   return object;
 }
 
+Json json_of(const std::optional<AlarmCause>& alarm) {
+  if (!alarm) return {};
+  return Json{{"region", alarm->region},
+              {"signal", alarm->signal},
+              {"level", static_cast<int>(alarm->level)},
+              {"value", known(alarm->value)},
+              {"unit", alarm->unit}};
+}
+
 void read(const Json& value, std::string& text) { text = value.get<std::string>(); }
 
 /// The library converts any number, also one that the type does not have.
@@ -53,10 +62,37 @@ void read_known(const Json& value, std::string& text) {
   if (!value.is_null()) text = value.get<std::string>();
 }
 
+void read(const Json& value, signals::AlarmLevel& level) {
+  std::uint8_t number = 0;
+  read(value, number);
+  level = static_cast<signals::AlarmLevel>(number);
+  if (signals::operator_text(level).empty()) {
+    throw std::range_error("there is no level " + std::to_string(number) + " of an alarm");
+  }
+}
+
+AlarmCause alarm_of(const Json& json) {
+  AlarmCause alarm;
+  read(json.at("region"), alarm.region);
+  read(json.at("signal"), alarm.signal);
+  read(json.at("level"), alarm.level);
+  if (!json.at("value").is_null()) alarm.value = json.at("value").get<double>();
+  read(json.at("unit"), alarm.unit);
+  return alarm;
+}
+
+/// Members that earlier versions do not write.
+void read_cause(const Json& json, EventSummary& summary) {
+  const auto alarm = json.find("alarm"), line = json.find("line");
+  if (alarm != json.end() && !alarm->is_null()) summary.alarm = alarm_of(*alarm);
+  if (line != json.end()) read_known(*line, summary.line);
+}
+
 EventSummary summary_of(const Json& json) {
   EventSummary summary;
   summary.trigger = json.at("trigger").get<std::string>();
   summary.text = json.at("text").get<std::string>();
+  read_cause(json, summary);
   read_known(json.at("first"), summary.first);
   read_known(json.at("triggered"), summary.triggered);
   read_known(json.at("last"), summary.last);
@@ -77,6 +113,8 @@ EventSummary summary_of(const Json& json) {
 std::string summary_text(const EventSummary& summary) {
   const Json json{{"trigger", summary.trigger},
                   {"text", summary.text},
+                  {"alarm", json_of(summary.alarm)},
+                  {"line", known(summary.line)},
                   {"first", known(summary.first)},
                   {"triggered", known(summary.triggered)},
                   {"last", known(summary.last)},

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/model/sink/recorded_events.h"
 #include "app/ports/recorder/events/event_triggers.h"
 #include "app/ports/recorder/messages.h"
 #include "proc/image/result.h"
@@ -18,6 +20,8 @@ namespace orbwatch::app::recorder {
 struct EventSummary {
   std::string trigger;                 ///< name of the kind
   std::string text;                    ///< for operators, one line
+  std::optional<AlarmCause> alarm;     ///< empty: another trigger, or an earlier version wrote it
+  std::string line;                    ///< name of a digital line; empty: likewise
   std::string first, triggered, last;  ///< UTC of frame sets; empty: no picture
   std::uint64_t frame_set = 0;         ///< of the trigger
   std::uint16_t recipe = 0;

@@ -26,7 +26,8 @@ EventTriggers::EventTriggers(const EventSettings& settings,
     : settings_(settings), ring_(ring), started_(started) {
   for (const std::string& name : settings.on_lines) {
     const auto found = std::ranges::find(process_inputs, name);
-    lines_.push_back({static_cast<std::size_t>(found - process_inputs.begin()), {}});
+    WatchedLine& line = lines_.emplace_back();
+    line.input = static_cast<std::size_t>(found - process_inputs.begin());
   }
 }
 
@@ -39,31 +40,66 @@ void EventTriggers::accept(const AlarmNotice& notice) {
 void EventTriggers::accept(const Status& status, hal::TimePoint now) {
   end_before(now - kLatest);
   if (status.frame_set == 0) return;
-  const MachineValues& machine = status.machine.values;
-  const bool is_laser = changes(laser_, machine.laser_on) && machine.laser_on != 0;
-  const bool is_layer = changes(layer_, machine.layer);
-  if (is_laser && settings_.on_laser) fire(trigger_at(status, TriggerKind::Laser));
-  if (is_layer && settings_.on_layer) fire(trigger_at(status, TriggerKind::Layer));
-  accept_lines(status);
-  if (is_requested_.exchange(false)) fire(trigger_at(status, TriggerKind::Command));
+  const bool is_new_set = status.frame_set != newest_.frame_set;
+  newest_ = trigger_at(status);
+  collect(status);
+  if (is_due(is_new_set, now)) fire_waiting();
 }
 
-/// Several edges of a line since the last status are one trigger and further ones that extend it.
-void EventTriggers::accept_lines(const Status& status) {
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const std::uint32_t edges = status.process_input_edges[lines_[i].input];
-    const std::uint32_t before = std::exchange(lines_[i].edges, edges).value_or(edges);
-    if (edges == before) continue;
-    Trigger trigger = trigger_at(status, TriggerKind::Line);
-    trigger.line = i;
-    fire(trigger);
-    extended_ += edges - before - 1;
+/// Keeps the causes since the last status, which wait for a frame set.
+void EventTriggers::collect(const Status& status) {
+  const MachineValues& machine = status.machine.values;
+  if (changes(laser_, machine.laser_on) && machine.laser_on != 0) is_laser_ = settings_.on_laser;
+  if (changes(layer_, machine.layer)) is_layer_ = settings_.on_layer;
+  for (WatchedLine& line : lines_) {
+    const std::uint32_t edges = status.process_input_edges[line.input];
+    line.waiting += edges - std::exchange(line.edges, edges).value_or(edges);
   }
 }
 
-Trigger EventTriggers::trigger_at(const Status& status, TriggerKind kind) {
-  Trigger trigger;
+bool EventTriggers::has_cause() const {
+  return is_requested_ || is_laser_ || is_layer_ ||
+         std::ranges::any_of(lines_, [](const WatchedLine& line) { return line.waiting > 0; });
+}
+
+/// True for the first status of a frame set. Later ones repeat its stamp, but the causes of their
+/// triggers are not in its pictures: these wait for the next set. If the cameras are gone or not
+/// triggered, that set would lie behind the end of the event: then the newest pictures are taken.
+bool EventTriggers::is_due(bool is_new_set, hal::TimePoint now) {
+  if (is_new_set) return true;
+  if (!has_cause()) return false;
+  if (!waits_since_) waits_since_ = now;
+  return now - *waits_since_ > std::max<hal::Clock::duration>(settings_.after, kLatest);
+}
+
+void EventTriggers::fire_waiting() {
+  if (newest_.frame_set == 0) return;
+  waits_since_.reset();
+  if (std::exchange(is_laser_, false)) fire_at_newest(TriggerKind::Laser);
+  if (std::exchange(is_layer_, false)) fire_at_newest(TriggerKind::Layer);
+  fire_lines();
+  if (is_requested_.exchange(false)) fire_at_newest(TriggerKind::Command);
+}
+
+/// Several edges of a line are one trigger and further ones that extend it.
+void EventTriggers::fire_lines() {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const std::uint32_t edges = std::exchange(lines_[i].waiting, 0U);
+    if (edges == 0) continue;
+    fire_at_newest(TriggerKind::Line, i);
+    extended_ += edges - 1;
+  }
+}
+
+void EventTriggers::fire_at_newest(TriggerKind kind, std::size_t line) {
+  Trigger trigger = newest_;
   trigger.kind = kind;
+  trigger.line = line;
+  fire(trigger);
+}
+
+Trigger EventTriggers::trigger_at(const Status& status) {
+  Trigger trigger;
   trigger.stamp = status.stamp;
   trigger.frame_set = status.frame_set;
   trigger.recipe = status.recipe;

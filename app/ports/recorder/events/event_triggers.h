@@ -80,7 +80,8 @@ struct StartedEvent {
 /// Decides when events begin and end, by the stamps of frame sets. A trigger during an event
 /// extends it, up to its longest time; the next one begins an event of its own, which may overlap
 /// and shares its pictures in the ring. So each trigger has its whole time in one event.
-/// Thread rule: request, extended and refused on any thread; the rest on the pipeline's.
+/// Thread rule: request, extended and refused on any thread; the rest on the pipeline's, and
+/// fire_waiting after its end on another one.
 class EventTriggers {
  public:
   using Started = hal::BoundedQueue<StartedEvent, 2 * FrameRing::kMostWindows>;
@@ -90,14 +91,18 @@ class EventTriggers {
   EventTriggers(const EventSettings& settings, const std::vector<std::string>& process_inputs,
                 FrameRing& ring, Started& started);
 
-  /// Triggers by the next status.
+  /// Triggers by the next frame set, see accept().
   void request() { is_requested_ = true; }
 
   /// Before the pictures of a frame set are put into the ring.
   void begin_set(hal::TimePoint stamp) { end_before(stamp); }
   void accept(const AlarmNotice& notice);
-  /// `now` ends events while there are no frame sets.
+  /// A command and edges between two frame sets belong to the next one; without one for longer than
+  /// settings.after, and at least 2 s, since the first of them, to the newest. `now` also ends
+  /// events while there are no frame sets.
   void accept(const Status& status, hal::TimePoint now);
+  /// Triggers what waits by the newest frame set; without any, it waits on.
+  void fire_waiting();
 
   /// Triggers that extended an event, and those that found no window, since start.
   std::uint64_t extended() const { return extended_; }
@@ -111,13 +116,18 @@ class EventTriggers {
   struct WatchedLine {
     std::size_t input = 0;               ///< index in a Status
     std::optional<std::uint32_t> edges;  ///< last reported count
+    std::uint32_t waiting = 0;           ///< edges that wait for a frame set
   };
 
-  void accept_lines(const Status& status);
+  void collect(const Status& status);
+  bool has_cause() const;
+  bool is_due(bool is_new_set, hal::TimePoint now);
+  void fire_lines();
+  void fire_at_newest(TriggerKind kind, std::size_t line = 0);
   void fire(const Trigger& trigger);
   bool extends_newest(hal::TimePoint last);
   void end_before(hal::TimePoint moment);
-  static Trigger trigger_at(const Status& status, TriggerKind kind);
+  static Trigger trigger_at(const Status& status);
 
   const EventSettings& settings_;
   FrameRing& ring_;
@@ -125,6 +135,10 @@ class EventTriggers {
   std::atomic<bool> is_requested_{false};
   std::array<Running, FrameRing::kMostWindows> running_;  ///< the first count_, oldest first
   std::size_t count_ = 0;
+  /// Trigger at the newest status, without a cause; frame set 0: there is none yet.
+  Trigger newest_;
+  std::optional<hal::TimePoint> waits_since_;  ///< first of the causes that wait for a frame set
+  bool is_laser_ = false, is_layer_ = false;   ///< such causes, if the settings have them
   double laser_ = signals::kNotValid, layer_ = signals::kNotValid;  ///< last ones known
   std::vector<WatchedLine> lines_;                                  ///< those of the settings
   std::atomic<std::uint64_t> extended_{0}, refused_{0};

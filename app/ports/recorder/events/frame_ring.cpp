@@ -45,9 +45,8 @@ FrameRing::FrameRing(std::size_t bytes, std::size_t least_frame)
 /// True: a window needs the picture and has not read it.
 bool FrameRing::is_held(std::uint64_t number) const {
   const hal::TimePoint stamp = slot(number).frame.set_stamp;
-  return std::ranges::any_of(windows_, [&](const Held& window) {
-    return window.is_read && number >= window.next && stamp >= window.first && stamp <= window.last;
-  });
+  return std::ranges::any_of(
+      windows_, [&](const Held& window) { return window.needs(stamp) && number >= window.next; });
 }
 
 /// Frees room behind the newest picture. Places count bytes since start, so that the ring is
@@ -67,6 +66,13 @@ std::optional<std::uint64_t> FrameRing::place_for(std::size_t bytes) {
   return begin;
 }
 
+/// Counts a picture that found no room, also for each window that lacks it.
+void FrameRing::lose(hal::TimePoint stamp) {
+  missing_ = stamp;
+  ++lost_;
+  for (Held& window : windows_) window.lost += window.needs(stamp) ? 1 : 0;
+}
+
 bool FrameRing::put(const KeptFrame& frame) {
   const std::size_t bytes = bytes_of(frame);
   std::optional<std::uint64_t> begin;
@@ -74,8 +80,7 @@ bool FrameRing::put(const KeptFrame& frame) {
     const std::lock_guard lock(mutex_);
     begin = place_for(bytes);
     if (!begin) {
-      missing_ = frame.set_stamp;
-      ++lost_;
+      lose(frame.set_stamp);
       return false;
     }
   }
@@ -130,6 +135,11 @@ void FrameRing::pass(std::size_t window) {
 hal::TimePoint FrameRing::last_of(std::size_t window) const {
   const std::lock_guard lock(mutex_);
   return windows_[window].last;
+}
+
+std::uint64_t FrameRing::lost_of(std::size_t window) const {
+  const std::lock_guard lock(mutex_);
+  return windows_[window].lost;
 }
 
 bool FrameRing::is_over(std::size_t window) const {

@@ -27,6 +27,8 @@ struct KeptFrame {
   Picture picture;                     ///< the part that is kept
   /// The picture as the camera sent it; then the ring keeps no pixels, and `picture` has none.
   std::span<const std::byte> jpeg = {};
+  double kelvin_per_count = 0;  ///< scale of a radiometric camera; 0: it is none
+  double kelvin_offset = 0;
 };
 
 /// Figures of the ring.
@@ -41,7 +43,7 @@ struct RingUse {
 /// is lost and counted. Allocates nothing after its construction; the lock is held only while
 /// places are assigned, never while pixels are copied.
 /// Thread rule: put, hold, extend and close on the pipeline's thread; next, pass, last_of,
-/// is_over and release on one other; use on any.
+/// lost_of, is_over and release on one other; use on any.
 class FrameRing {
  public:
   /// Most windows at once.
@@ -72,6 +74,8 @@ class FrameRing {
   void pass(std::size_t window);
   /// Present end of the window.
   hal::TimePoint last_of(std::size_t window) const;
+  /// Pictures of the window's time that found no room since hold().
+  std::uint64_t lost_of(std::size_t window) const;
   /// True: the window is closed and all of its pictures were read.
   bool is_over(std::size_t window) const;
   /// Nothing is read from the window any more.
@@ -90,6 +94,10 @@ class FrameRing {
     bool is_closed = true;  ///< otherwise from hold() to close()
     hal::TimePoint first, last;
     std::uint64_t next = 0;  ///< number of the slot that is read next
+    std::uint64_t lost = 0;  ///< see lost_of()
+
+    /// True: it is read, and its time includes the frame set.
+    bool needs(hal::TimePoint stamp) const { return is_read && stamp >= first && stamp <= last; }
   };
 
   const Slot* next_of(const Held& window) const;
@@ -97,6 +105,7 @@ class FrameRing {
   const Slot& slot(std::uint64_t number) const { return slots_[number % slots_.size()]; }
   bool is_held(std::uint64_t number) const;
   std::optional<std::uint64_t> place_for(std::size_t bytes);
+  void lose(hal::TimePoint stamp);
 
   std::vector<std::byte> bytes_;
   std::vector<Slot> slots_;

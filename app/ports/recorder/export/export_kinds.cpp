@@ -5,7 +5,7 @@
 
 #include "app/ports/recorder/export/copied_range.h"
 #include "app/ports/recorder/export/event_zip.h"
-#include "app/ports/recorder/export/picture_stack.h"
+#include "app/ports/recorder/export/pictures/picture_stack.h"
 #include "app/ports/recorder/export/state_table.h"
 
 namespace orbwatch::app::recorder {

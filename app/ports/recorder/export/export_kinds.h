@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "app/model/sink/recorded_exports.h"
-#include "app/ports/recorder/export/camera_video.h"
 #include "app/ports/recorder/export/export_range.h"
 #include "app/ports/recorder/export/export_steps.h"
+#include "app/ports/recorder/export/pictures/camera_video.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::recorder {

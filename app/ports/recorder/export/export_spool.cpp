@@ -2,10 +2,12 @@
 #include "app/ports/recorder/export/export_spool.h"
 
 #include <algorithm>
+#include <new>
 #include <system_error>
 #include <utility>
 
 #include "app/log.h"
+#include "app/ports/recorder/disk_space.h"
 #include "app/ports/recorder/events/event_summary.h"
 
 namespace orbwatch::app::recorder {
@@ -14,18 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kSpoolMebibyte = std::uint64_t{1} << 20;
-
-/// Bytes of the files in a folder.
-std::uint64_t bytes_of_files(const fs::path& folder) {
-  std::uint64_t bytes = 0;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code vanished;
-    const std::uint64_t size = it->file_size(vanished);
-    if (!vanished) bytes += size;
-  }
-  return bytes;
-}
 
 /// Name for people: that of the event, with the camera if the file has pictures of it alone. Names
 /// of cameras are of any origin.
@@ -74,7 +64,7 @@ class ExportSpool::Room {
     const hal::TimePoint now = hal::Clock::now();
     if (now < next_) return used_;
     next_ = now + kPause;
-    used_ = bytes_of_files(folder_);
+    used_ = bytes_in(folder_);
     std::error_code error;
     const std::uintmax_t free = fs::space(folder_, error).available;
     if (used_ <= limit_ && (error || free >= reserve_)) return used_;
@@ -89,11 +79,13 @@ class ExportSpool::Room {
   hal::TimePoint next_{};
 };
 
-ExportSpool::ExportSpool(const RecorderSettings& settings, ExportTimes times)
+ExportSpool::ExportSpool(const RecorderSettings& settings, ExportTimes times,
+                         std::span<const ExportKind> kinds)
     : folder_(settings.folder / "exports"),
       reserve_(static_cast<std::uint64_t>(settings.reserve_mib) * kSpoolMebibyte),
       events_(settings.folder),
-      times_(times) {}
+      times_(times),
+      kinds_(kinds) {}
 
 void ExportSpool::start() {
   if (thread_.is_running()) return;
@@ -145,13 +137,14 @@ void ExportSpool::remove_old() {
 Result<ExportSpool::Job> ExportSpool::job_of(const ExportRequest& request) const {
   const auto event = events_.find(request.event);
   if (!event) return tl::unexpected(event.error());
-  if (!event->is_finished) return fail("the event " + event->name + " is being recorded");
+  if (const auto finished = EventFolder::check_finished(*event); !finished) {
+    return tl::unexpected(finished.error());
+  }
   const auto from = range_end("from", request.from);
   if (!from) return tl::unexpected(from.error());
   const auto to = range_end("to", request.to);
   if (!to) return tl::unexpected(to.error());
-  const auto kinds = export_kinds();
-  const auto kind = std::ranges::find(kinds, request.format, &ExportKind::format);
+  const auto kind = std::ranges::find(kinds_, request.format, &ExportKind::format);
   if (request.draws && !kind->has_text) return fail("draws: values are drawn into avi only");
   const auto text = request.draws ? VideoText::Values : VideoText::None;
   return Job{0,
@@ -217,21 +210,25 @@ void ExportSpool::make(Job job) {
 
 /// True: the file is ready.
 bool ExportSpool::end(const Result<>& written, std::uint64_t bytes) {
-  const std::lock_guard lock(mutex_);
-  made_ = hal::Clock::now();
-  status_.bytes = bytes;
-  status_.state = is_cancelled_ ? ExportState::None
-                  : written     ? ExportState::Ready
-                                : ExportState::Failed;
-  if (status_.state == ExportState::Failed) {
+  std::string failure;
+  {
+    const std::lock_guard lock(mutex_);
+    made_ = hal::Clock::now();
+    status_.bytes = bytes;
+    status_.state = is_cancelled_ ? ExportState::None
+                    : written     ? ExportState::Ready
+                                  : ExportState::Failed;
+    if (status_.state == ExportState::Ready) return true;
+    if (status_.state == ExportState::None) return false;
     status_.error = written.error().message;
-    log_line(LogLevel::Warning,
-             "recorder: " + status_.event + " is not exported: " + status_.error);
+    failure = "recorder: " + status_.event + " is not exported: " + status_.error;
   }
-  return status_.state == ExportState::Ready;
+  log_line(LogLevel::Warning, failure);
+  return false;
 }
 
-Result<> ExportSpool::write(Job& job) {
+/// A recording of any origin may need more memory than there is, which must not end the daemon.
+Result<> ExportSpool::write(Job& job) try {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) return fail(folder_.string() + ": " + error.message());
@@ -254,6 +251,8 @@ Result<> ExportSpool::write(Job& job) {
   auto written = job.kind.write(job.source, path_of(job.number), steps);
   if (!problem.empty()) return fail(problem);
   return written;
+} catch (const std::bad_alloc&) {
+  return fail("not enough memory; export a smaller range");
 }
 
 ExportStatus ExportSpool::status() const {

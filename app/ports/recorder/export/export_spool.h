@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/model/sink/recorded_exports.h"
@@ -29,7 +30,9 @@ struct ExportTimes {
 /// none takes the reserve, for which recordings would be deleted.
 class ExportSpool final : public RecordedExports {
  public:
-  explicit ExportSpool(const RecorderSettings& settings, ExportTimes times = {});
+  /// `kinds` has one of each format; outlives it.
+  explicit ExportSpool(const RecorderSettings& settings, ExportTimes times = {},
+                       std::span<const ExportKind> kinds = export_kinds());
   ~ExportSpool() override { ExportSpool::stop(); }
 
   void start() override;
@@ -67,6 +70,7 @@ class ExportSpool final : public RecordedExports {
   const std::uint64_t reserve_;  ///< bytes
   const EventFolder events_;
   const ExportTimes times_;
+  const std::span<const ExportKind> kinds_;
   mutable std::mutex mutex_;  ///< guards the members below, but not the thread
   bool is_started_ = false;
   ExportStatus status_;

@@ -69,6 +69,25 @@ class Recorder : public testing::Test {
     std::ranges::sort(all);
     return all;
   }
+  RecorderSettings settings_with_events() const {
+    RecorderSettings site = settings();
+    site.events.emplace();
+    site.events->ring_mib = 1;
+    site.events->before = site.events->after = std::chrono::milliseconds(50);
+    return site;
+  }
+  /// The pipeline's part of frame set `n` of a RecordedMachine.
+  static void pass_set(RecorderSink& sink, std::uint64_t n) {
+    hal::FrameSet set;
+    set.id = n;
+    set.stamp = RecordedMachine::at(n);
+    set.frames[0] = orbwatch::tests::painted_frame(n, 0, set.stamp, RecordedMachine::kWidth,
+                                                   RecordedMachine::kHeight);
+    sink.accept_frames(set);
+    Status status = status_of(n);
+    status.stamp = set.stamp;
+    sink.accept(status);
+  }
   static std::uint64_t messages_in(const fs::path& file) {
     auto reader = hal::mcap::Reader::open(file);
     EXPECT_TRUE(reader) << reader.error().message;
@@ -241,27 +260,13 @@ TEST_F(Recorder, AFolderThatCannotBeMadeIsAFaultUntilItCan) {
 }
 
 TEST_F(Recorder, AnEventByCommandIsRecordedBesideTheLogOnceTheDiskIsThere) {
-  RecorderSettings site = settings();
-  site.events.emplace();
-  site.events->ring_mib = 1;
-  site.events->before = site.events->after = std::chrono::milliseconds(50);
+  const RecorderSettings site = settings_with_events();
   RecorderSink sink(site, names_, texts_, RecordedMachine::cameras());
   std::uint64_t n = 0;
-  const auto pass_set = [&] {
-    hal::FrameSet set;
-    set.id = ++n;
-    set.stamp = RecordedMachine::at(n);
-    set.frames[0] = orbwatch::tests::painted_frame(n, 0, set.stamp, RecordedMachine::kWidth,
-                                                   RecordedMachine::kHeight);
-    sink.accept_frames(set);
-    Status status = status_of(n);
-    status.stamp = set.stamp;
-    sink.accept(status);
-  };
   const auto record_event = [&] {
-    for (int k = 0; k < 10; ++k) pass_set();
+    for (int k = 0; k < 10; ++k) pass_set(sink, ++n);
     EXPECT_TRUE(sink.request_event());
-    for (int k = 0; k < 20; ++k) pass_set();
+    for (int k = 0; k < 20; ++k) pass_set(sink, ++n);
   };
   // The folder of events is in the way of another file.
   fs::create_directories(site.folder);
@@ -272,7 +277,7 @@ TEST_F(Recorder, AnEventByCommandIsRecordedBesideTheLogOnceTheDiskIsThere) {
   EXPECT_FALSE(sink.works());
   fs::remove(site.folder / "events");
   ASSERT_TRUE(eventually([&] {
-    pass_set();
+    pass_set(sink, ++n);
     return sink.works();
   }));
   record_event();
@@ -281,6 +286,30 @@ TEST_F(Recorder, AnEventByCommandIsRecordedBesideTheLogOnceTheDiskIsThere) {
   EXPECT_GE(sink.statistics().pictures, 9U);
   EXPECT_GT(sink.statistics().recorded, 0U);
   EXPECT_EQ(std::distance(fs::directory_iterator(site.folder / "events"), {}), 1);
+}
+
+TEST_F(Recorder, AnEventThatWaitsForAFrameSetIsRecordedAtTheStop) {
+  const RecorderSettings site = settings_with_events();
+  RecorderSink sink(site, names_, texts_, RecordedMachine::cameras());
+  ASSERT_TRUE(sink.start());
+  pass_set(sink, 1);
+  EXPECT_TRUE(sink.request_event());
+  sink.stop();
+  EXPECT_EQ(sink.statistics().recordings, 1U);
+  EXPECT_EQ(sink.statistics().pictures, 1U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(site.folder / "events"), {}), 1);
+}
+
+TEST_F(Recorder, AnEventThatWaitsAtTheStopWithoutADiskIsCounted) {
+  const RecorderSettings site = settings_with_events();
+  std::ofstream(site.folder) << "a file in the way";
+  RecorderSink sink(site, names_, texts_, RecordedMachine::cameras());
+  ASSERT_TRUE(sink.start());
+  pass_set(sink, 1);
+  EXPECT_TRUE(sink.request_event());
+  sink.stop();
+  EXPECT_EQ(sink.statistics().recordings, 0U);
+  EXPECT_EQ(sink.statistics().recordings_lost, 1U);
 }
 
 TEST_F(Recorder, WithoutARingNoEventCanBeRequested) {

@@ -3,13 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 #include <vector>
 
 #include "app/ports/recorder/events/event_summary.h"
+#include "hal/mcap/record.h"
+#include "tests/app/ports/recorder/events/jpeg_frame.h"
 #include "tests/hal/recording/picture_file.h"
 #include "tests/support/picture_of_mat.h"
 #include "tests/support/temporary_folder.h"
@@ -31,6 +36,8 @@ class Archive : public testing::Test {
     EventSummary summary;
     summary.trigger = "layer";
     summary.text = "the layer changed";
+    summary.alarm = {"pool", "hot_spot_width", signals::AlarmLevel::HighAlarm, 27.25, "mm"};
+    summary.line = "button";
     summary.triggered = "2026-11-28T09:22:00.125Z";
     summary.part = "blade 7";
     summary.layer = 12;
@@ -53,6 +60,9 @@ TEST_F(Archive, TellsWhatAnEventIs) {
   const RecordedEvent& one = (*events)->front();
   EXPECT_EQ(one.name, kName);
   EXPECT_EQ(one.trigger, "layer");
+  ASSERT_TRUE(one.alarm);
+  EXPECT_EQ(one.alarm->signal, "hot_spot_width");
+  EXPECT_EQ(one.line, "button");
   EXPECT_EQ(one.part, "blade 7");
   EXPECT_EQ(one.layer, 12);
   EXPECT_EQ(one.pictures, 59U);
@@ -102,6 +112,110 @@ TEST_F(Archive, ShowsThePartOfAPictureThatIsRecorded) {
     EXPECT_LT(shown.at<std::uint8_t>(0, 0), 8) << "the darkest";
     EXPECT_GT(shown.at<std::uint8_t>(16, 12), 200) << "the brightest";
   }
+}
+
+TEST_F(Archive, KeepsNoFileOfADeletedEvent) {
+  record_pictures(make(kName) / kEventFile, 3);
+  ASSERT_TRUE(archive_.frame(kName, "thermal", 1));
+  const std::string events = fs::canonical(folder_ / "events").string();
+  ASSERT_TRUE(archive_.remove(kName));
+  for (const auto& open : fs::directory_iterator("/proc/self/fd")) {
+    std::error_code closed;  // the iterator's own
+    EXPECT_THAT(fs::read_symlink(open.path(), closed).string(), testing::Not(HasSubstr(events)));
+  }
+  EXPECT_FALSE(archive_.frame(kName, "thermal", 1));
+}
+
+TEST_F(Archive, NoticesThatARecordingHasChanged) {
+  const fs::path file = make(kName) / kEventFile;
+  record_pictures(file, 3);
+  ASSERT_TRUE(archive_.frame(kName, "thermal", 2));
+  record_pictures(file, 1);
+  EXPECT_TRUE(archive_.frame(kName, "thermal", 0));
+  EXPECT_THAT(archive_.frame(kName, "thermal", 2).error().message, HasSubstr("has changed"));
+}
+
+/// Changes a byte of the summary at the end of a recording.
+void damage_summary(const fs::path& recording) {
+  const auto place = static_cast<std::streamoff>(
+      fs::file_size(recording) - hal::mcap::kMagic.size() - hal::mcap::kFooterSize - 1);
+  std::fstream file(recording, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekg(place);
+  const int byte = file.get();
+  file.seekp(place);
+  file.put(static_cast<char>(byte ^ 0x5A));
+}
+
+TEST_F(Archive, RefusesARecordingWithADamagedSummaryInsteadOfReadingAllOfIt) {
+  const fs::path file = make(kName) / kEventFile;
+  record_pictures(file, 3);
+  ASSERT_TRUE(archive_.frame(kName, "thermal", 1));
+  damage_summary(file);
+  EventArchive other(folder_.path());  // without the index in memory
+  const auto frames = other.frames(kName);
+  ASSERT_FALSE(frames);
+  EXPECT_THAT(frames.error().message, HasSubstr(file.string() + ": its summary is"));
+  for (EventArchive* const archive : {&archive_, &other}) {
+    const auto frame = archive->frame(kName, "thermal", 1);
+    ASSERT_FALSE(frame);
+    EXPECT_THAT(frame.error().message, HasSubstr(file.string() + ": its summary is"));
+  }
+}
+
+/// Memory that the program has allocated, written or not.
+std::size_t allocated_bytes() {
+  const auto allocated = ::mallinfo2();
+  return allocated.uordblks + allocated.hblkhd;
+}
+
+TEST_F(Archive, ShowsAPartOfTheLargestPictureWithoutMemoryForTheWhole) {
+  const cv::Mat1w samples(30, 40, static_cast<std::uint16_t>(1000));
+  Picture whole = orbwatch::tests::picture_of_mat(samples);  // pixels of its first corner alone
+  whole.width = whole.height = kMaxSide;
+  const fs::path path = make(kName) / kEventFile;
+  fs::remove(path);
+  orbwatch::tests::PictureFile file(path);
+  orbwatch::tests::CameraTopics camera(file, "thermal",
+                                       {PixelFormat::Y16, {}, 40, 30, 30, 0.04, 1});
+  camera.write(whole, {0, 0, 40, 30}, 1'000'000'000, 1'000'000'000, 1);
+  file.finish();
+  const std::size_t before = allocated_bytes();
+  const auto jpeg = archive_.frame(kName, "thermal", 0);
+  ASSERT_TRUE(jpeg) << jpeg.error().message;
+  EXPECT_LT(allocated_bytes(), before + (std::size_t{64} << 20)) << "512 MiB for the whole";
+  const cv::Mat shown =
+      cv::imdecode(std::vector<char>(jpeg->begin(), jpeg->end()), cv::IMREAD_GRAYSCALE);
+  EXPECT_EQ(shown.size(), cv::Size(40, 30));
+}
+
+/// States the largest sides in the header of a JPEG picture.
+void enlarge(std::vector<std::byte>& jpeg) {
+  constexpr std::array kFrame{std::byte{0xFF}, std::byte{0xC0}};
+  const auto frame = std::search(jpeg.begin(), jpeg.end(), kFrame.begin(), kFrame.end());
+  ASSERT_GT(jpeg.end() - frame, 9);
+  for (const int side : {5, 7}) {  // height and width
+    frame[side] = std::byte{kMaxSide >> 8};
+    frame[side + 1] = std::byte{kMaxSide & 0xFF};
+  }
+}
+
+TEST_F(Archive, RefusesAPictureThatIsTooLargeToDecode) {
+  const fs::path path = make(kName) / kEventFile;
+  fs::remove(path);
+  orbwatch::tests::PictureFile file(path);
+  const auto channel = file.add(hal::recording::compressed_topic("orbwatch", "colour"),
+                                hal::recording::CompressedImage::kType);
+  auto sent = orbwatch::tests::sent_jpeg(1, 40, 30);
+  enlarge(sent);
+  hal::recording::CompressedImage message;
+  message.header = hal::recording::header_at(1'000'000'000, "colour");
+  message.format = hal::recording::kColourJpeg;
+  message.data = sent;
+  file.write(channel, 1'000'000'000, 1, message);
+  file.finish();
+  const auto refused = archive_.frame(kName, "colour", 0);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("16384x16384; it must be at most 64 MiB"));
 }
 
 TEST_F(Archive, RefusesPicturesThatItDoesNotHave) {

@@ -15,6 +15,8 @@ EventSummary summary_of_all() {
   EventSummary summary;
   summary.trigger = "layer";
   summary.text = "the layer changed";
+  summary.alarm = {"pool", "hot_spot_width", signals::AlarmLevel::HighAlarm, 27.25, "mm"};
+  summary.line = "button";
   summary.first = summary.triggered = summary.last = "2026-11-28T09:22:00.125Z";
   summary.frame_set = 18446744073709551615U;
   summary.recipe = 65535;
@@ -36,6 +38,32 @@ TEST(EventSummary, IsReadAsItWasWritten) {
     EXPECT_EQ(summary_text(*read), text);
   }
   EXPECT_EQ(parse_summary(summary_text(summary_of_all()))->frame_set, 18446744073709551615U);
+}
+
+TEST(EventSummary, AnEarlierVersionsHasNoPartsOfItsCause) {
+  EventSummary summary = summary_of_all();
+  summary.alarm.reset();
+  summary.line.clear();
+  std::string text = summary_text(summary);
+  for (const std::string member : {"  \"alarm\": null,\n", "  \"line\": null,\n"}) {
+    ASSERT_THAT(text, HasSubstr(member));
+    text.erase(text.find(member), member.size());
+  }
+  const auto read = parse_summary(text);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(summary_text(*read), summary_text(summary));
+}
+
+TEST(EventSummary, AnAlarmWithoutAValueIsReadAndALevelThatThereIsNotIsRefused) {
+  EventSummary summary = summary_of_all();
+  summary.alarm->value = signals::kNotValid;
+  std::string text = summary_text(summary);
+  const auto read = parse_summary(text);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_FALSE(signals::is_valid(read->alarm->value));
+  const std::string level = "\"level\": 4";
+  text.replace(text.find(level), level.size(), "\"level\": 6");
+  EXPECT_THAT(parse_summary(text).error().message, HasSubstr("there is no level 6 of an alarm"));
 }
 
 TEST(EventSummary, NumbersThatItCannotHaveAreRefused) {

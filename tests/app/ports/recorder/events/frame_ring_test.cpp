@@ -91,6 +91,24 @@ TEST(FrameRing, WhatAWindowHoldsIsNotReplacedAndTheNewOneIsLostAndCounted) {
   EXPECT_EQ(read_all(ring, window->number), from_to(46, 46));
 }
 
+TEST(FrameRing, EachWindowCountsThePicturesThatItLacks) {
+  FrameRing ring(20 * kBytes, kBytes);
+  for (std::uint64_t n = 1; n <= 20; ++n) put(ring, n);
+  const auto early = ring.hold(at(1), at(24));
+  const auto late = ring.hold(at(23), at(30));
+  ASSERT_TRUE(early && late);
+  for (std::uint64_t n = 21; n <= 40; ++n) EXPECT_FALSE(put(ring, n));
+  EXPECT_EQ(ring.lost_of(early->number), 4U);
+  EXPECT_EQ(ring.lost_of(late->number), 8U);
+  EXPECT_EQ(ring.use().lost, 20U);
+  ring.release(early->number);
+  ring.close(early->number);
+  const auto next = ring.hold(at(41), at(50));
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->number, early->number);
+  EXPECT_EQ(ring.lost_of(next->number), 0U);
+}
+
 TEST(FrameRing, OverlappingWindowsShareTheirPictures) {
   FrameRing ring(40 * kBytes, kBytes);
   for (std::uint64_t n = 1; n <= 20; ++n) put(ring, n);

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 
 #include <fstream>
 #include <string>
 
 #include "app/ports/recorder/events/event_folder.h"
 #include "app/ports/recorder/events/event_summary.h"
+#include "app/ports/recorder/log_file.h"
+#include "app/ports/recorder/recording_folder.h"
+#include "hal/mcap/reader.h"
 #include "tests/app/ports/recorder/events/read_event.h"
 #include "tests/app/ports/recorder/events/recorded_machine.h"
+#include "tests/support/require.h"
 #include "tests/support/service_user.h"
 #include "tests/support/small_disk.h"
 #include "tests/support/temporary_folder.h"
@@ -66,6 +71,44 @@ TEST(FullDisk, AnEventThatItCutIsFinishedOnceThereIsRoom) {
     machine.record_all();
     EXPECT_EQ(machine.statistics().recordings, 1U);
     EXPECT_EQ(machine.events().size(), 2U);
+  });
+}
+
+TEST(ReadOnlyDisk, WhatItCutIsFinishedOnceItCanBeWritten) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  const orbwatch::tests::TemporaryFolder folder;
+  tests::expect_in_a_process([&] {
+    tests::mount_small_disk(folder.path(), "size=8m");
+    const auto remount = [&](unsigned long flags) {
+      tests::require(::mount("", folder.path().c_str(), nullptr, MS_REMOUNT | flags, "") == 0);
+    };
+    EventSettings events;
+    events.ring_mib = 1;
+    const RecorderSettings settings{.folder = folder.path(), .events = events};
+    const std::filesystem::path log = folder / "log-20261128T090000Z.mcap";
+    {
+      auto file = LogFile::create(log, {}, Utc() + std::chrono::hours(1));
+      tests::require(file.has_value());
+      EXPECT_TRUE(file->flush());
+    }
+    RecordedMachine machine(settings);
+    for (std::uint64_t n = 1; n <= 30; ++n) machine.pass(n, n == 20);
+    for (int round = 0; round < 10; ++round) ASSERT_TRUE(machine.record());
+    ASSERT_TRUE(machine.recorder().flush());
+    machine.recorder().give_up();
+    remount(MS_RDONLY);
+    RecordingFolder stored(settings);
+    ASSERT_TRUE(stored.prepare());
+    ASSERT_EQ(machine.events().size(), 1U);
+    EXPECT_FALSE(machine.events().front().is_finished);
+
+    remount(0);
+    ASSERT_TRUE(stored.prepare());
+    ASSERT_EQ(machine.events().size(), 1U);
+    EXPECT_TRUE(machine.events().front().is_finished);
+    const auto finished = hal::mcap::Reader::open(log);
+    ASSERT_TRUE(finished) << finished.error().message;
+    EXPECT_TRUE(finished->is_finished());
   });
 }
 

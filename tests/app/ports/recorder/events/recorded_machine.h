@@ -14,11 +14,13 @@
 namespace orbwatch::tests {
 
 /// A machine with a thermal and a colour camera whose events are recorded, on one thread: each
-/// frame set goes the way of the pipeline. Its time is the test's, a set every 10 ms.
+/// frame set goes the way of the pipeline. Its time is the test's, a set every 10 ms unless some
+/// are left out.
 class RecordedMachine {
  public:
   static constexpr int kWidth = 24, kHeight = 16;
   static constexpr hal::recording::PictureRegion kBall{3, 2, 11, 9};
+  static constexpr std::size_t kButton = 1;  ///< index of the process input "button"
 
   explicit RecordedMachine(const app::RecorderSettings& settings)
       : settings_(settings), recorder_(settings_, cameras(), names_, texts_, counters_) {}
@@ -64,9 +66,12 @@ class RecordedMachine {
     status.frame_set = number;
     status.stamp = set.stamp;
     if (is_alarm) alarm(number);
-    recorder_.accept(status);
+    recorder_.accept(status, set.stamp);
     waiting_.push_back(status);
   }
+
+  /// The pipeline's part without a new frame set.
+  void idle(hal::TimePoint now) { recorder_.accept(status, now); }
 
   /// The recorder's part. True: more pictures wait.
   Result<bool> record() {
@@ -115,6 +120,9 @@ class RecordedMachine {
     notice.stamp = at(number);
     notice.part = *app::PartName::make("Flügel 7");
     notice.layer = 12;
+    notice.signal = app::SignalNumber{5};  // hot_spot_width
+    notice.event.level = signals::AlarmLevel::HighAlarm;
+    notice.event.value = 27.25;
     recorder_.accept_event(notice);
   }
 

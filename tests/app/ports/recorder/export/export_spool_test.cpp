@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "tests/app/ports/recorder/export/recorded_event.h"
 
@@ -206,6 +208,23 @@ TEST_F(Spool, ForgetsFilesOfAnEarlierRun) {
   EXPECT_EQ(files().size(), 1U);
   spool->stop();
   EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Spool, WantOfMemoryIsAFailure) {
+  const auto all = export_kinds();
+  std::vector<ExportKind> kinds(all.begin(), all.end());
+  std::ranges::find(kinds, ExportFormat::Csv, &ExportKind::format)->write =
+      [](const ExportSource&, const fs::path&, const ExportSteps&) -> Result<> {
+    throw std::bad_alloc();
+  };
+  spool.emplace(settings(), ExportTimes{}, kinds);
+  spool->start();
+  ASSERT_TRUE(spool->begin(request(ExportFormat::Csv)));
+  EXPECT_EQ(end().state, ExportState::Failed);
+  EXPECT_EQ(end().error, "not enough memory; export a smaller range");
+  ASSERT_TRUE(spool->begin(request(ExportFormat::Mcap)));
+  EXPECT_EQ(end().state, ExportState::Ready) << end().error;
+  spool.reset();
 }
 
 TEST_F(Spool, DamageIsAFailure) {

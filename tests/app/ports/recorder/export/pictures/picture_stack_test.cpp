@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/picture_stack.h"
+#include "app/ports/recorder/export/pictures/picture_stack.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

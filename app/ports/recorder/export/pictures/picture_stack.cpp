@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/picture_stack.h"
+#include "app/ports/recorder/export/pictures/picture_stack.h"
 
 #include <nlohmann/json.hpp>
 
-#include "app/ports/recorder/export/camera_pictures.h"
-#include "app/ports/recorder/export/tiff_writer.h"
+#include "app/ports/recorder/export/pictures/camera_pictures.h"
+#include "app/ports/recorder/export/pictures/tiff_writer.h"
 #include "app/ports/recorder/recorded_utc.h"
 #include "proc/image/celsius.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/video_frames.h"
+#include "app/ports/recorder/export/pictures/video_frames.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/avi_writer.h"
+#include "app/ports/recorder/export/pictures/avi_writer.h"
 
 #include <algorithm>
 #include <initializer_list>

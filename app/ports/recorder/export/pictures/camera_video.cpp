@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/camera_video.h"
+#include "app/ports/recorder/export/pictures/camera_video.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <vector>
 
-#include "app/ports/recorder/export/avi_writer.h"
-#include "app/ports/recorder/export/camera_pictures.h"
-#include "app/ports/recorder/export/video_frames.h"
+#include "app/ports/recorder/export/pictures/avi_writer.h"
+#include "app/ports/recorder/export/pictures/camera_pictures.h"
+#include "app/ports/recorder/export/pictures/video_frames.h"
 
 namespace orbwatch::app::recorder {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/camera_pictures.h"
+#include "app/ports/recorder/export/pictures/camera_pictures.h"
 
 #include <algorithm>
 
-#include "hal/mcap/limits.h"
 #include "hal/recording/camera_channels.h"
-#include "hal/recording/picture_region.h"
+#include "hal/recording/recorded_part.h"
 
 namespace orbwatch::app::recorder {
 namespace {
@@ -78,22 +77,10 @@ Result<ExportedPicture> CameraPictures::next() {
 }
 
 Result<Picture> CameraPictures::pixels(const ExportedPicture& picture) {
-  const hal::recording::RecordedPart& part = picture.part;
-  const int stride = row_bytes(part.format, part.width);
-  const std::size_t bytes =
-      picture_bytes(part.format, static_cast<std::size_t>(stride), part.height);
-  const std::string size = std::to_string(part.width) + "x" + std::to_string(part.height);
-  if (bytes > hal::mcap::Limits{}.chunk) {
-    return fail(file_.string() + ": a picture of " + size + "; it must be at most 64 MiB large");
-  }
-  pixels_.resize(bytes);
-  auto target =
-      MutablePicture::contiguous(part.format, part.width, part.height, pixels_.data(), stride);
-  target.colour_space = index().format.colour_space;
-  const auto placed =
-      hal::recording::place_part(part, {0, 0, part.width, part.height}, *decoder_, target);
-  if (!placed) return fail(file_.string() + ": " + camera_ + ": " + placed.error().message);
-  return Picture(target);
+  return hal::recording::pixels_of(picture.part, index().format.colour_space, *decoder_, pixels_)
+      .map_error([&](const Error& error) {
+        return Error{file_.string() + ": " + camera_ + ": " + error.message};
+      });
 }
 
 }  // namespace orbwatch::app::recorder

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/tiff_writer.h"
+#include "app/ports/recorder/export/pictures/tiff_writer.h"
 
 #include <bit>
 #include <cstddef>

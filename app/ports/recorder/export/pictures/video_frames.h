@@ -10,9 +10,9 @@
 #include "app/pictures/caption.h"
 #include "app/pictures/jpeg_encoder.h"
 #include "app/ports/recorder/events/trigger_picture.h"
-#include "app/ports/recorder/export/camera_pictures.h"
-#include "app/ports/recorder/export/camera_video.h"
 #include "app/ports/recorder/export/export_steps.h"
+#include "app/ports/recorder/export/pictures/camera_pictures.h"
+#include "app/ports/recorder/export/pictures/camera_video.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::recorder {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/recorder/export/camera_video.h"
+#include "app/ports/recorder/export/pictures/camera_video.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "app/ports/recorder/export/avi_writer.h"
-#include "app/ports/recorder/export/tiff_writer.h"
+#include "app/ports/recorder/export/pictures/avi_writer.h"
+#include "app/ports/recorder/export/pictures/tiff_writer.h"
 #include "hal/recording/messages.h"
 #include "tests/app/ports/recorder/export/recorded_event.h"
 #include "tests/hal/recording/picture_file.h"
