@@ -14,6 +14,7 @@
 #include "app/model/status/status_report.h"
 #include "app/ports/console/console_settings.h"
 #include "app/ports/console/waitless_output.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
@@ -56,7 +57,7 @@ class ConsoleSink final : public Sink {
   WaitlessOutput out_;  ///< used by the thread while it runs, else by the owner
   std::atomic<std::uint64_t> dropped_{0};
   hal::TimePoint started_;
-  std::mutex mutex_;
+  hal::PriorityMutex mutex_;
   Status status_;
   hal::Thread thread_;
 };

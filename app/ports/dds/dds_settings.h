@@ -85,6 +85,10 @@ inline Result<> check_keys(const DdsSettings& settings, Dates dates) {
   return dds::check_security(*settings.security, settings.domain, dates);
 }
 
+/// Checks what an enabled participant needs to start: the prefix and the network profile.
+/// Reentrant.
+Result<> check_settings(const DdsSettings& settings);
+
 /// `identity` is completed by name and prefix. `views` and `cameras` by place in `names`.
 std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& names,
                                 const std::vector<PublishedView>& views,

@@ -41,9 +41,9 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
       fleet_(std::move(identity), std::move(fleet), threads),
       takes_commands_(takes_commands(settings_) && handler),
       record_(std::move(record)),
-      commands_(settings_.prefix, std::move(handler), *record_, [this] { thread_.wake(); }) {
+      commands_(settings_.prefix, std::move(handler), *record_) {
   if (machine.source == MachineSource::Dds) {
-    machine_.emplace(settings_.prefix, std::move(machine.handler));
+    machine_.emplace(settings_.prefix, std::move(machine));
   }
   views.resize(names_.views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -76,19 +76,18 @@ void DdsSink::stop() {
   running_ = false;
   thread_.stop();
   leave();
-  status_.discard();
+  statuses_.discard();
   while (notices_.try_take()) {
   }
 }
 
 Result<> DdsSink::check() const {
   if (const auto checked = check_domain(settings_.domain); !checked) return checked;
-  if (const auto checked = check_profile(settings_.profile); !checked) return checked;
+  if (const auto checked = check_settings(settings_); !checked) return checked;
   if (settings_.security) {
     const auto secured = security_qos(*settings_.security, settings_.domain);
     if (!secured) return tl::unexpected(secured.error());
   }
-  if (const auto checked = check_topic_path(settings_.prefix, "prefix"); !checked) return checked;
   for (auto name = names_.views.begin(); name != names_.views.end(); ++name) {
     if (const auto checked = check_topic_part(*name, "view name"); !checked) return checked;
     if (*name == kSelectedView || std::find(names_.views.begin(), name, *name) != name) {
@@ -114,19 +113,34 @@ Result<> DdsSink::join() {
   for (const auto& camera : cameras_) {
     if (const auto opened = camera->open(entity); !opened) return opened;
   }
-  fleet_.open(entity, reachable(bound_addresses()));
+  fleet_.open(entity, reachable(participant_.addresses()));
   return selected_.open(entity)
       .and_then([&] { return selected_info_.open(entity); })
       .and_then([&] { return status_topics_.open(entity); })
       .and_then([&] { return takes_commands_ ? commands_.open(entity) : Result<>(); })
-      .and_then([&] { return machine_ ? machine_->open(entity) : Result<>(); })
+      .and_then([&] { return open_machine(); })
       .and_then([&] { return discovery_.open(entity, settings_.ros); })
       .and_then([&] { return announce_node(); })
       .and_then([&] { return watch_types(); });
 }
 
+/// Keys of an earlier version do not permit this topic; they leave the others. Other errors fail
+/// the attempt to join, which is repeated.
+Result<> DdsSink::open_machine() {
+  if (!machine_) return {};
+  const auto opened = machine_->open(participant_.entity());
+  if (opened || !is_refused_by_security(opened.error())) return opened;
+  machine_->close();
+  log_line(LogLevel::Warning,
+           opened.error().message +
+               "; no states of the machine are received. Keys of an earlier version do not permit "
+               "machine_state: `orbwatch dds-keys` makes new ones");
+  return {};
+}
+
 std::chrono::nanoseconds DdsSink::cpu_time() const {
-  std::chrono::nanoseconds time = thread_.cpu_time() + selected_.cpu_time() + fleet_.cpu_time();
+  std::chrono::nanoseconds time =
+      thread_.cpu_time() + commands_.cpu_time() + selected_.cpu_time() + fleet_.cpu_time();
   for (const auto& view : views_) time += view->cpu_time();
   for (const auto& camera : cameras_) time += camera->cpu_time();
   return time;
@@ -150,7 +164,7 @@ std::vector<const TopicWriter*> DdsSink::writers() const {
 std::vector<const TopicReader*> DdsSink::readers() const {
   std::vector<const TopicReader*> all;
   if (takes_commands_) all.push_back(&commands_.requests());
-  if (machine_) all.push_back(&machine_->states());
+  if (machine_ && machine_->is_open()) all.push_back(&machine_->states());
   return all;
 }
 
@@ -210,7 +224,7 @@ void DdsSink::keep_joined() {
     return;
   }
   if (!std::exchange(refusal_, {}).empty()) log_line(LogLevel::Info, "DDS: joined the domain");
-  interfaces_.joined(tried_addresses_, bound_addresses());
+  interfaces_.joined(tried_addresses_, participant_.addresses());
   joined_ = true;
   ++joins_;
 }
@@ -270,7 +284,7 @@ void DdsSink::accept(const ViewPtr& view) {
 void DdsSink::accept(const Status& status) {
   if (!running_) return;
   selected_view_ = status.selected_view;
-  status_.put({status, status.frame_set == 0 ? TimeMessage{} : utc(status.stamp)});
+  statuses_.put({status, status.frame_set == 0 ? TimeMessage{} : utc(status.stamp)});
   thread_.wake();
 }
 
@@ -284,16 +298,17 @@ void DdsSink::run() {
   while (thread_.wait()) {
     keep_joined();
     if (!joined_) continue;
-    commands_.serve();
     while (const auto notice = notices_.try_take()) status_topics_.publish(*notice);
     for (const auto& view : views_) view->publish_info();
     for (const auto& camera : cameras_) camera->publish_info();
     selected_info_.publish();
-    if (const auto status = status_.try_take()) {
-      status_topics_.publish(*status, commands_.counts(), [this] { return statistics(); });
-      fleet_.publish({status->status, names_, hal::Clock::now(), to_utc(status->stamp)});
-    }
+    statuses_.take([this](const StampedStatus& status) { publish(status); });
   }
+}
+
+void DdsSink::publish(const StampedStatus& status) {
+  status_topics_.publish(status, commands_.counts(), [this] { return statistics(); });
+  fleet_.publish({status.status, names_, hal::Clock::now(), to_utc(status.stamp)});
 }
 
 DdsStatistics DdsSink::statistics() const {
@@ -308,7 +323,7 @@ DdsStatistics DdsSink::statistics() const {
   fleet_.report(statistics.topics);
   statistics.topics.push_back(commands_.results().statistics());
   statistics.joins = joins_;
-  statistics.dropped_states = status_.drops();
+  statistics.dropped_states = statuses_.drops();
   statistics.dropped_events = notices_.drops();
   statistics.commands = commands_.counts();
   statistics.unknown_views = unknown_views_;
@@ -352,6 +367,13 @@ std::string commanders(const DdsSettings& settings) {
   return "over DDS from " +
          (settings.security ? std::string("holders of keys")
                             : "every participant of domain " + std::to_string(settings.domain));
+}
+
+Result<> check_settings(const DdsSettings& settings) {
+  if (!settings.enabled) return {};
+  return dds::check_topic_path(settings.prefix, "prefix").and_then([&] {
+    return dds::check_profile(settings.profile);
+  });
 }
 
 std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& names,

@@ -23,11 +23,11 @@
 #include "app/ports/dds/pictures/view_topics.h"
 #include "app/ports/dds/ros/ros_node.h"
 #include "app/ports/dds/status/dds_statistics.h"
+#include "app/ports/dds/status/status_queue.h"
 #include "app/ports/dds/status/status_topics.h"
 #include "app/ports/dds/topics/type_watch.h"
 #include "hal/back_off.h"
 #include "hal/thread/bounded_queue.h"
-#include "hal/thread/mailbox.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app::dds {
@@ -35,10 +35,11 @@ namespace orbwatch::app::dds {
 /// Publishes views and cameras' pictures as sensor_msgs/Image and CompressedImage, the status as
 /// ProcessState and diagnostics, and events, under ROS 2 names as a ROS 2 node, and executes
 /// commands; see topic_names.h. All samples of a frame set have the same UTC stamp, so that readers
-/// can pair images and state exactly. Pictures are encoded and written on shared threads;
-/// everything else is published on the sink's thread, which also executes commands, joins the
-/// domain with retries, and rejoins when the addresses of its interfaces change. Thread rule: as
-/// Sink; statistics() is thread-safe; start may run while views are passed to accept().
+/// can pair images and state exactly. Pictures are encoded and written on shared threads, commands
+/// are executed on a thread of their own; everything else is published on the sink's thread, which
+/// also joins the domain with retries, and rejoins when the addresses of its interfaces change.
+/// Thread rule: as Sink; statistics() is thread-safe; start may run while views are passed to
+/// accept().
 class DdsSink final : public Sink {
  public:
   using Addresses = std::function<std::optional<std::vector<NetworkAddress>>()>;
@@ -88,11 +89,13 @@ class DdsSink final : public Sink {
   std::vector<const TopicWriter*> writers() const;
   std::vector<const TopicReader*> readers() const;
   Result<> join();
+  Result<> open_machine();
   Result<> announce_node();
   Result<> watch_types();
   void leave();
   void keep_joined();
   void run();
+  void publish(const StampedStatus& status);
   /// Converts a stamp to UTC, equal results for equal stamps; on the pipeline's thread.
   TimeMessage utc(hal::TimePoint stamp);
 
@@ -106,7 +109,7 @@ class DdsSink final : public Sink {
   std::vector<std::unique_ptr<CameraTopics>> cameras_;
   PictureTopics selected_;
   InfoTopic selected_info_;
-  hal::Mailbox<StampedStatus> status_;
+  StatusQueue statuses_;
   hal::BoundedQueue<StampedNotice, kMaxNotices> notices_;
   std::atomic<bool> running_{false};
   std::atomic<std::uint64_t> unknown_views_{0};

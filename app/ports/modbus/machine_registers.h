@@ -9,11 +9,13 @@
 
 namespace orbwatch::app::modbus {
 
-/// The state in the registers, its values in their units. Error: the name of the part. Reentrant.
+/// The state in the registers, its values in their units, unchecked. Errors: the name of the part,
+/// or the microseconds of the clock. Reentrant.
 Result<MachineState> machine_state_in(const MachineRegisters& registers);
 
-/// Hands over the state of a checked write. Refusals: IllegalDataAddress, Modbus is not the source;
-/// IllegalDataValue, the state is refused. Thread-safe.
+/// Hands over the state of a checked write, whose values are checked here, so that each refusal is
+/// counted. Refusals: IllegalDataAddress, Modbus is not the source; IllegalDataValue, the state is
+/// refused. Thread-safe.
 std::optional<Exception> take_machine_state(const Write& write, const RegisterMap& map,
                                             const MachinePath& path);
 

@@ -50,8 +50,8 @@ struct ModbusSettings {
   /// TCP port; the default is not the registered port 502, which needs CAP_NET_BIND_SERVICE. 0: any
   /// free port.
   int port = 1502;
-  /// Limit of connections; idle ones stay, and a further client closes the one that has been idle
-  /// longest.
+  /// Limit of connections; idle ones stay while there is room, and a further client closes one in
+  /// the order of TcpServer::has_room_for().
   int max_connections = 16;
   /// Time without a packet after which TCP keep-alive probes the client, s.
   int keep_alive_s = 60;
@@ -100,10 +100,16 @@ template <class Visitor>
 void visit(Visitor& v, ModbusSettings& modbus) {
   v.optional("enabled", modbus.enabled, "Serve Modbus");
   v.optional("address", modbus.address, "Numeric address to listen on");
+  // The network interface of a zone (fe80::1%eth0) may be plugged in later.
+  const std::string host = modbus.address.substr(0, modbus.address.find('%'));
+  v.require(!modbus.enabled || hal::parse_host(host).has_value(), "address",
+            "is not a numeric address such as 192.168.1.20, 0.0.0.0 or ::1");
   v.optional("port", modbus.port, Range::between(0, 65535), "TCP port; 0: any free port");
   v.optional("max_connections", modbus.max_connections, Range::between(1, 1000),
-             "Limit of open connections; a further client closes the connection that has been idle "
-             "longest");
+             "Limit of open connections; a further client closes one: readers before writers, "
+             "those without a request first, then those of the host with the most connections, "
+             "then the one idle longest; a reader closes no writer with a request in the last "
+             "60 s");
   v.optional("keep_alive_s", modbus.keep_alive_s, Range::between(1, 7200),
              "Idle time after which TCP keep-alive probes a client; without an answer its "
              "connection is closed 30 s later");

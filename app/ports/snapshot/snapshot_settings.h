@@ -19,7 +19,9 @@ struct SnapshotSettings {
 
 template <class Visitor>
 void visit(Visitor& v, SnapshotSettings& snapshot) {
-  v.required("folder", snapshot.folder, "Folder for the PNG pictures of the command snapshot");
+  v.required("folder", snapshot.folder,
+             "Folder for the PNG pictures of the command snapshot; a folder outside the state "
+             "folder needs ReadWritePaths= in the unit");
   v.optional("keep", snapshot.keep, Range::between(1, 100000),
              "Number of snapshots kept; a further one deletes the oldest");
 }

@@ -23,30 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Time stamp in the form 20260131T235959.123Z.
-std::string stamp_text(hal::TimePoint moment) {
-  std::string text = utc_text(hal::to_utc(moment)).value_or("");
-  std::erase_if(text, [](char c) { return c == '-' || c == ':'; });
-  return text.substr(0, text.find('.') + 4) + "Z";
-}
-
 /// Name of a snapshot: VIEW_TIME_FRAMESET.
 std::string name_of(const View& view) {
-  return std::string(view.name) + "_" + stamp_text(view.stamp) + "_" +
-         std::to_string(view.frame_set);
+  return std::string(view.name) + "_" + compact_utc_text(hal::to_utc(view.stamp)).value_or("") +
+         "_" + std::to_string(view.frame_set);
 }
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kWord =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
-
-/// Matches the form that stamp_text() writes.
-bool is_stamp(std::string_view text) {
-  constexpr std::string_view kForm = "00000000T000000.000Z";
-  return std::ranges::equal(text, kForm, [](char given, char form) {
-    return form == '0' ? kDigits.find(given) != kDigits.npos : given == form;
-  });
-}
 
 bool remove_end(std::string_view& text, std::string_view end) {
   if (!text.ends_with(end)) return false;
@@ -57,17 +42,17 @@ bool remove_end(std::string_view& text, std::string_view end) {
 /// The common part of the names of a snapshot's files that this sink writes:
 /// VIEW_STAMP_NUMBER[_measured].png; nullopt for other files.
 std::optional<std::string> snapshot_of(const fs::path& file) {
-  constexpr std::size_t kStamp = 20;
   const std::string file_name = file.filename().string();
   std::string_view name = file_name;
   if (!remove_end(name, ".png")) return std::nullopt;
   remove_end(name, "_measured");
   const std::size_t number = name.find_last_not_of(kDigits) + 1;
   std::string_view view = name.substr(0, number);
-  if (number == name.size() || !remove_end(view, "_") || view.size() < kStamp) return std::nullopt;
-  const std::string_view stamp = view.substr(view.size() - kStamp);
-  view.remove_suffix(kStamp);
-  const bool is_ours = is_stamp(stamp) && remove_end(view, "_") && !view.empty() &&
+  if (number == name.size() || !remove_end(view, "_") || view.size() < kCompactUtcLength)
+    return std::nullopt;
+  const std::string_view stamp = view.substr(view.size() - kCompactUtcLength);
+  view.remove_suffix(kCompactUtcLength);
+  const bool is_ours = is_compact_utc_text(stamp) && remove_end(view, "_") && !view.empty() &&
                        view.find_first_not_of(kWord) == view.npos;
   if (!is_ours) return std::nullopt;
   return std::string(name);

@@ -13,7 +13,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-constexpr auto kRenewalPause = std::chrono::minutes(1);
+constexpr std::chrono::seconds kRenewalPause{60}, kReopeningPause{5};
 
 std::chrono::sys_seconds utc_now() { return *now_for(Dates::Checked); }
 
@@ -31,6 +31,7 @@ Listeners::Listeners(const WebSettings& settings, std::filesystem::path state_fo
       counts_(counts) {}
 
 Result<> Listeners::open() {
+  const std::lock_guard making(making_mutex_);
   const std::lock_guard lock(mutex_);
   if (http_.empty()) {
     if (auto opened = open_http(); !opened) return opened;
@@ -88,26 +89,33 @@ void Listeners::close() {
 }
 
 void Listeners::watch() {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
   for (const auto& server : http_) server->end_overdue();
   if (https_) https_->end_overdue();
-  if (certificate_ && is_due(*certificate_, utc_now(), clock_state())) renew();
 }
 
-/// Replaces a due certificate. A failure is retried, because the old one stays due and is presented
-/// until then.
-void Listeners::renew() {
-  if (hal::Clock::now() < next_renewal_) return;
-  next_renewal_ = hal::Clock::now() + kRenewalPause;
-  auto renewed = certificate();
-  Result<> opened;
-  if (renewed) {
+bool Listeners::is_certificate_due() {
+  const ClockState clock = clock_state();
+  const std::lock_guard lock(mutex_);
+  return certificate_ && is_due(*certificate_, utc_now(), clock);
+}
+
+/// Without a new certificate the old server stays; when the port cannot be opened, HTTPS is closed.
+/// Both are attempted again.
+void Listeners::renew_certificate() {
+  const std::lock_guard making(making_mutex_);
+  const hal::TimePoint now = hal::Clock::now();
+  if (now < next_renewal_ || !is_certificate_due()) return;
+  auto made = certificate();
+  const std::lock_guard lock(mutex_);
+  if (!certificate_) return;  // close() was called meanwhile
+  const auto opened = std::move(made).and_then([this](ServerCertificate renewed) {
     https_.reset();
-    opened = open_https(std::move(*renewed));
-  } else {
-    opened = tl::unexpected(renewed.error());
-  }
+    return open_https(std::move(renewed));
+  });
   if (!opened) log_line(LogLevel::Error, opened.error().message);
+  next_renewal_ = now + (https_ ? kRenewalPause : kReopeningPause);
 }
 
 void Listeners::serve_http(const ExchangePtr& exchange) const {

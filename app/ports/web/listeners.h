@@ -32,9 +32,13 @@ class Listeners {
   /// Ends all connections.
   void close();
 
-  /// Ends connections that are overdue, and replaces a self-made certificate before it expires,
-  /// which closes HTTPS connections; to be called several times a second.
+  /// Ends connections that are overdue; to be called several times a second. Does not wait: while
+  /// a server starts or stops, the next call ends them.
   void watch();
+  /// Replaces a self-made certificate before it expires, which closes HTTPS connections; to be
+  /// called at least every few seconds. Waits for the disk and for a key to be made, during which
+  /// the servers go on and watch() has its turn.
+  void renew_certificate();
 
   int port() const { return port_; }
   int https_port() const { return https_port_; }  ///< 0: not open
@@ -45,7 +49,7 @@ class Listeners {
   Result<ServerCertificate> certificate() const;
   Result<> open_http();
   Result<> open_https(ServerCertificate certificate);
-  void renew();
+  bool is_certificate_due();
   void serve_http(const ExchangePtr& exchange) const;
 
   const WebSettings& settings_;
@@ -55,11 +59,17 @@ class Listeners {
   std::atomic<int> port_{0}, https_port_{0};
   std::atomic<std::int64_t> certificate_ends_{0};  ///< s since 1970; 0: none
 
-  std::mutex mutex_;  ///< guards the following members, also while a server starts or stops
+  /// Held while a certificate is read or made, so that there is one at a time, that of the file.
+  /// Locked before mutex_; close() and watch() do without it.
+  std::mutex making_mutex_;
+  hal::TimePoint next_renewal_;  ///< earliest time of the next attempt; under making_mutex_
+
+  /// Guards the following members, also while a server starts or stops; during a renewal not while
+  /// the certificate is made.
+  std::mutex mutex_;
   std::vector<std::unique_ptr<Server>> http_;
   std::unique_ptr<Server> https_;
   std::optional<ServerCertificate> certificate_;  ///< certificate of https_, present or last
-  hal::TimePoint next_renewal_;                   ///< earliest time of the next attempt
 };
 
 }  // namespace orbwatch::app::web

@@ -347,7 +347,7 @@ std::vector<Route> device_routes(const RouteOwners& of) {
       post<&DeviceDesk::restore>(
           "/api/v1/restore", Administrator, of.device, of.device_changes,
           "Restores the uploaded backup: restarts with its files, all of them or, if that fails, "
-          "none"),
+          "none. 409: it is not the one with this sha256, or a configuration is on trial"),
       post<&DeviceDesk::reset>(
           "/api/v1/factory_reset", Administrator, of.device, of.device_changes,
           "Restarts with the delivered configuration, and removes all other configuration, "

@@ -20,7 +20,6 @@
 #include "app/pictures/jpeg_quality.h"
 #include "hal/host.h"
 #include "hal/network.h"
-#include "hal/socket_address.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/settings/settings.h"
 
@@ -55,11 +54,11 @@ struct WebSettings {
   int max_streams = 32;
   std::size_t max_body_bytes = 65536;
   /// Limit from the connection, or from the previous answer, to the end of a request; and again for
-  /// its answer.
+  /// its answer. Longer answers: see web::Connections.
   std::chrono::milliseconds request_timeout{10000};
   JpegSettings jpeg;
 
-  /// Idle time after which a session ends; an open stream counts as use.
+  /// Idle time after which a session ends; an open stream or file counts as use.
   std::chrono::seconds session_idle{60 * 60};
   /// Limit of a session's age; afterwards the user must log in again.
   std::chrono::seconds session_longest{12 * 60 * 60};
@@ -102,7 +101,9 @@ void visit(Visitor& v, WebSettings& web) {
   v.optional("enabled", web.enabled, "Serve the page and the HTTP interface");
   v.optional("address", web.address,
              "Numeric address to listen on; 0.0.0.0 or :: for every network, then over HTTPS only");
-  v.require(hal::parse_address(web.address, 0).has_value(), "address",
+  // The network interface of a zone (fe80::1%eth0) may be plugged in later.
+  const std::string host = web.address.substr(0, web.address.find('%'));
+  v.require(hal::parse_host(host).has_value(), "address",
             "is not a numeric address such as 192.168.1.20, 0.0.0.0 or ::1");
   v.optional("port", web.port, Range::between(0, 65535),
              "HTTP port, served to this computer only; other clients are redirected to HTTPS. 0: "
@@ -138,9 +139,10 @@ void visit(Visitor& v, WebSettings& web) {
   v.optional("max_body_bytes", web.max_body_bytes, Range::between(1024, 1e7),
              "Largest body of a request, bytes; larger ones are refused");
   v.optional("request_timeout_ms", web.request_timeout, Milliseconds{Range::between(100, 60000)},
-             "Time limit for a request to arrive completely, and for its answer to be read");
+             "Time limit for a request to arrive completely, and for its answer to be read; a "
+             "longer answer needs 64 KiB in each such time, a file also 64 KiB/s on average");
   v.optional("session_idle_min", web.session_idle, Minutes{Range::between(1, 1e5)},
-             "Idle time after which a user without an open stream is logged out");
+             "Idle time after which a user without an open stream or download is logged out");
   v.optional("session_longest_min", web.session_longest, Minutes{Range::between(1, 1e5)},
              "Time after which a user is logged out in any case");
   v.table("jpeg", web.jpeg, "JPEG encoding of snapshots and streams");

@@ -39,8 +39,8 @@ WebSink::WebSink(WebSettings settings, const WebContext& context)
               version_of(context.program), settings_.status_timeout),
       balls_(context),
       streams_(
-          context.names.views, context.views, balls_.feeds(), settings_.jpeg, settings_.max_streams,
-          threads_, status_.feed(),
+          context.names.views, context.views, balls_.sources(), settings_.jpeg,
+          settings_.max_streams, threads_, status_.feed(),
           [this](const ViewPtr& view, std::uint64_t number) { pixels_.show(view, number); },
           access_, server_counts_),
       commands_(context.commands, list_, access_, audit_),
@@ -125,14 +125,17 @@ void WebSink::begin() {
   device_changes_.start();
   is_running_ = true;
   thread_.start("web", [this] { watch(); });
+  files_thread_.start("web records", hal::ThreadRole::Background, [this] { follow_files(); });
 }
 
 void WebSink::pass_on(const web::ExchangePtr& exchange) {
-  const auto caller_of = [this](const web::Request& request, const web::Route& route) {
-    return access_
-        .player(route.takes_password ? web::player_credentials_of(request)
-                                     : web::credentials_of(request))
-        .map_error(web::refused);
+  const auto caller_of = [&](const web::Request& request, const web::Route& route) {
+    const web::Credentials credentials =
+        route.takes_password ? web::player_credentials_of(request) : web::credentials_of(request);
+    exchange->send_file_while([this, credentials, role = route.role] {
+      return access_.caller(credentials).role >= role;
+    });
+    return access_.player(credentials).map_error(web::refused);
   };
   web::serve(routes_, caller_of, exchange);
 }
@@ -140,13 +143,21 @@ void WebSink::pass_on(const web::ExchangePtr& exchange) {
 void WebSink::watch() {
   while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
     listeners_.watch();
-    access_.refresh();
-    audit_.write_due(std::chrono::system_clock::now());
     pixels_.release_unwanted(hal::Clock::now());
     balls_.follow();
     history_.advance(hal::Clock::now());
-    history_.keep(hal::Clock::now());
     status_.publish();
+  }
+}
+
+/// Waits for the disk, for which neither the live status nor overdue connections may wait.
+void WebSink::follow_files() {
+  while (files_thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
+    access_.refresh();
+    listeners_.renew_certificate();
+    commands_.note_others();
+    audit_.write_due(std::chrono::system_clock::now());
+    history_.keep(hal::Clock::now());
   }
 }
 
@@ -154,6 +165,7 @@ void WebSink::watch() {
 void WebSink::stop() {
   const bool was_running = is_running_.exchange(false);
   thread_.stop();
+  files_thread_.stop();
   commands_.runner().stop();
   file_changes_.stop();
   recording_changes_.stop();
@@ -165,6 +177,7 @@ void WebSink::stop() {
   listeners_.close();
   look_around_.stop();
   access_.stop();
+  commands_.note_others();  // of interfaces that stopped before
   audit_.write_all();
   if (was_running) history_.keep_all();
   streams_.stop();
@@ -172,10 +185,10 @@ void WebSink::stop() {
 }
 
 std::chrono::nanoseconds WebSink::cpu_time() const {
-  return thread_.cpu_time() + commands_.runner().cpu_time() + look_around_.cpu_time() +
-         access_changes_.cpu_time() + file_changes_.cpu_time() + recording_changes_.cpu_time() +
-         exports_.cpu_time() + replays_.cpu_time() + device_changes_.cpu_time() +
-         streams_.cpu_time();
+  return thread_.cpu_time() + files_thread_.cpu_time() + commands_.runner().cpu_time() +
+         look_around_.cpu_time() + access_changes_.cpu_time() + file_changes_.cpu_time() +
+         recording_changes_.cpu_time() + exports_.cpu_time() + replays_.cpu_time() +
+         device_changes_.cpu_time() + streams_.cpu_time();
 }
 
 PictureNeeds WebSink::needs(std::size_t view, hal::TimePoint stamp) {

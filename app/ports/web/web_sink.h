@@ -70,6 +70,7 @@ class WebSink final : public Sink {
   void begin();
   void pass_on(const web::ExchangePtr& exchange);
   void watch();
+  void follow_files();
 
   const WebSettings settings_;
   const std::shared_ptr<hal::SharedThreads> threads_;
@@ -103,7 +104,8 @@ class WebSink final : public Sink {
   web::DeviceDesk device_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
-  hal::Thread thread_;  ///< ends overdue connections, reports to streams, keeps history
+  hal::Thread thread_;        ///< ends overdue connections, reports to streams
+  hal::Thread files_thread_;  ///< writes audit, history and certificate, reads changed users
 };
 
 }  // namespace orbwatch::app

@@ -6,9 +6,8 @@
 namespace orbwatch::app::dds {
 
 CommandService::CommandService(const std::string& prefix, CommandHandler handler,
-                               CommandRecord& record, std::function<void()> wake)
+                               CommandRecord& record)
     : handler_(std::move(handler)),
-      wake_(std::move(wake)),
       record_(record),
       requests_(orbwatch_msgs_msg_dds__Command__desc, command_topic(prefix)),
       results_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic(prefix)) {
@@ -23,6 +22,9 @@ CommandService::~CommandService() { close(); }
 Result<> CommandService::open(const Entity& participant) {
   // Opens the answers first, because a client may send as soon as it discovers the reader.
   if (const auto opened = results_.open(participant, command_qos()); !opened) return opened;
+  thread_.start("dds commands", [this] {
+    while (thread_.wait()) serve_all();
+  });
   show_order_of_calls();
   const Listener listener(dds_create_listener(this));
   dds_lset_data_available(listener.get(), receive);
@@ -32,7 +34,8 @@ Result<> CommandService::open(const Entity& participant) {
 void CommandService::close() {
   requests_.close();
   show_order_of_calls();
-  serve();
+  thread_.stop();
+  serve_all();
   results_.close();
 }
 
@@ -43,11 +46,11 @@ void CommandService::receive(dds_entity_t reader, void* service) {
     self.queue_.put(request_of(*static_cast<const CommandMessage*>(sample)));
   };
   take_all_samples(reader, take);
-  self.wake_();
+  self.thread_.wake();
   show_order_of_calls();
 }
 
-void CommandService::serve() {
+void CommandService::serve_all() {
   while (const auto request = queue_.try_take()) serve(*request);
 }
 

@@ -5,6 +5,8 @@
     python3 view_subscriber.py --ros-args -r image:=/orbwatch/front/image_raw \\
         -r camera_info:=/orbwatch/front/camera_info
 
+`front` is a view of sites that `orbwatch setup` wrote; in the installed configuration use `door`.
+
 Needs ROS 2 (Humble or later): rclpy, sensor_msgs, message_filters; no bridge.
 """
 

@@ -53,7 +53,7 @@ Result<> FleetMember::open_all(const Entity& participant) {
       .and_then([&] { return reader_ ? reader_->open(participant) : Result<>(); })
       .and_then([&] { return appliance_id(participant.get()); })
       .map([&](const std::string& id) {
-        if (fleet_) fleet_->call_self(id);
+        if (fleet_) fleet_->set_own_id(id);
       });
 }
 
@@ -70,7 +70,7 @@ void FleetMember::publish(const StatusReport& report) {
   const ApplianceMessage message = appliance_message(notice_of(present_, report));
   notices_.write(&message);
   if (!reader_) return;
-  const auto read = reader_->read_thumbnails(*participant_, fleet_->is_looked_at(report.now));
+  const auto read = reader_->read_thumbnails(*participant_, fleet_->has_viewers(report.now));
   if (!read) log_line(LogLevel::Warning, read.error().message);
 }
 

@@ -97,7 +97,7 @@ void FleetReader::on_notices(dds_entity_t reader, void* self) {
   Fleet& fleet = static_cast<FleetReader*>(self)->fleet_;
   take_all<ApplianceMessage>(reader, fleet, [&](const std::string& id, const auto& message) {
     const auto notice = check_appliance(message);
-    if (notice) fleet.hear(id, *notice, hal::Clock::now());
+    if (notice) fleet.receive(id, *notice, hal::Clock::now());
     return notice.has_value();
   });
 }

@@ -6,8 +6,7 @@ namespace orbwatch::app::dds {
 void ThumbnailWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const Picture small = thumbnail_.of(stamped.picture);
   stamped.owner.reset();
-  auto jpeg = encoder_.encode(small, quality_.current());
-  while (jpeg && quality_.adapt(jpeg->size())) jpeg = encoder_.encode(small, quality_.current());
+  const auto jpeg = encoder_.encode(small, quality_);
   if (!jpeg) {
     topic.count_failure(jpeg.error().message);
     return;

@@ -18,8 +18,8 @@ Result<MachineState> machine_state_of(const MachineStateMessage& message, double
   return state;
 }
 
-MachineStateReader::MachineStateReader(const std::string& prefix, MachineStateHandler handler)
-    : handler_(std::move(handler)),
+MachineStateReader::MachineStateReader(const std::string& prefix, MachinePath path)
+    : path_(std::move(path)),
       states_(orbwatch_msgs_msg_dds__MachineState__desc, machine_state_topic(prefix)) {}
 
 Result<> MachineStateReader::open(const Entity& participant) {
@@ -35,13 +35,13 @@ void MachineStateReader::close() {
 }
 
 void MachineStateReader::receive(dds_entity_t reader, void* self) {
-  const MachineStateHandler& handler = static_cast<MachineStateReader*>(self)->handler_;
+  const MachinePath& path = static_cast<MachineStateReader*>(self)->path_;
   show_order_of_calls();
-  const auto take = [&handler](const void* sample, const dds_sample_info_t& info) {
+  const auto take = [&path](const void* sample, const dds_sample_info_t& info) {
     const double written = 1e-9 * static_cast<double>(info.source_timestamp);
-    // A refusal is counted and logged by the one who refuses.
-    static_cast<void>(machine_state_of(*static_cast<const MachineStateMessage*>(sample), written)
-                          .and_then(handler));
+    // The path counts and logs a refusal.
+    static_cast<void>(
+        path.take(machine_state_of(*static_cast<const MachineStateMessage*>(sample), written)));
   };
   take_all_samples(reader, take);
   show_order_of_calls();

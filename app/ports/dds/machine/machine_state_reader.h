@@ -19,19 +19,20 @@ Result<MachineState> machine_state_of(const MachineStateMessage& message, double
 /// wait for that. Thread rule: one owner.
 class MachineStateReader {
  public:
-  MachineStateReader(const std::string& prefix, MachineStateHandler handler);
+  MachineStateReader(const std::string& prefix, MachinePath path);
   ~MachineStateReader() { close(); }
 
   /// Reads the topic until close(). Error: a failure of DDS.
   Result<> open(const Entity& participant);
   void close();
+  bool is_open() const { return states_.get() > 0; }
 
   const TopicReader& states() const { return states_; }
 
  private:
   static void receive(dds_entity_t reader, void* self);
 
-  const MachineStateHandler handler_;
+  const MachinePath path_;
   TopicReader states_;
 };
 

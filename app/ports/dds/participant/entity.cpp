@@ -27,6 +27,11 @@ Error dds_error(std::string_view what, dds_return_t code) {
   return {"DDS " + std::string(what) + ": " + dds_strretcode(code)};
 }
 
+bool is_refused_by_security(const Error& error) {
+  const std::string_view reason = dds_strretcode(DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
+  return error.message.find(reason) != std::string::npos;
+}
+
 void Entity::reset() {
   // The call fails only if the parent was deleted before, and this entity with it.
   if (handle_ > 0) dds_delete(handle_);

@@ -16,6 +16,9 @@ namespace orbwatch::app::dds {
 
 /// The error of a DDS call that returned `code`: "DDS <what>: <reason>".
 Error dds_error(std::string_view what, dds_return_t code);
+/// Returns whether a dds_error(), also with further text, is a refusal by access control: the keys
+/// do not permit the topic.
+bool is_refused_by_security(const Error& error);
 
 /// Owns one handle of the DDS C API. Thread-safe as far as the handle's own calls are.
 class Entity {

@@ -4,6 +4,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <charconv>
@@ -31,6 +32,26 @@ std::optional<std::string> bound_address(int file) {
   return hal::is_unspecified(address) ? std::nullopt : std::optional(std::move(address));
 }
 
+/// The inode number of the open file `file`; nullopt: not a socket.
+std::optional<ino_t> socket_inode(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0 || !S_ISSOCK(status.st_mode)) return {};
+  return status.st_ino;
+}
+
+/// Calls `visit` with the number of each open file of this process.
+template <class Visit>
+void for_each_open_file(const Visit& visit) {
+  std::error_code unreadable;  // e.g. without /proc: further ones stay unknown
+  std::filesystem::directory_iterator open_file("/proc/self/fd", unreadable);
+  for (; open_file != std::filesystem::directory_iterator(); open_file.increment(unreadable)) {
+    const std::string name = open_file->path().filename();
+    int file = -1;
+    std::from_chars(name.data(), name.data() + name.size(), file);
+    visit(file);
+  }
+}
+
 bool is_loopback(const NetworkAddress& address) {
   const auto host = hal::parse_host(address.address);
   return host && hal::is_loopback(*host);
@@ -54,16 +75,21 @@ std::optional<std::vector<NetworkAddress>> network_addresses() {
   return addresses;
 }
 
-std::set<std::string> bound_addresses() {
+std::set<ino_t> open_sockets() {
+  std::set<ino_t> sockets;
+  for_each_open_file([&sockets](int file) {
+    if (const auto inode = socket_inode(file)) sockets.insert(*inode);
+  });
+  return sockets;
+}
+
+std::set<std::string> bound_addresses(const std::set<ino_t>& earlier) {
   std::set<std::string> addresses;
-  std::error_code unreadable;  // e.g. without /proc: further ones stay unknown
-  std::filesystem::directory_iterator open_file("/proc/self/fd", unreadable);
-  for (; open_file != std::filesystem::directory_iterator(); open_file.increment(unreadable)) {
-    const std::string name = open_file->path().filename();
-    int file = -1;
-    std::from_chars(name.data(), name.data() + name.size(), file);
+  for_each_open_file([&](int file) {
+    const auto inode = socket_inode(file);
+    if (!inode || earlier.contains(*inode)) return;
     if (auto address = bound_address(file)) addresses.insert(std::move(*address));
-  }
+  });
   return addresses;
 }
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <mutex>
 
+#include "app/ports/dds/participant/network_addresses.h"
+
 namespace orbwatch::app::dds {
 
 namespace {
@@ -26,6 +28,7 @@ const std::string kDefaults =
 
 struct OwnDomain {
   Entity entity;
+  std::set<std::string> addresses;  ///< of its sockets
   int users = 0;
 };
 /// Also held while domains are created and deleted: Cyclone DDS refuses to create an existing one.
@@ -36,7 +39,9 @@ std::map<int, OwnDomain> domains;  // domains by number
 class DomainUse {
  public:
   /// Registers the use; the caller holds the mutex.
-  explicit DomainUse(int number) : number_(number) { ++domains[number].users; }
+  explicit DomainUse(int number) : number_(number), addresses_(domains[number].addresses) {
+    ++domains[number].users;
+  }
   ~DomainUse() {
     const std::lock_guard lock(domains_mutex);
     if (--domains[number_].users == 0) domains.erase(number_);
@@ -44,8 +49,11 @@ class DomainUse {
   DomainUse(const DomainUse&) = delete;
   DomainUse& operator=(const DomainUse&) = delete;
 
+  const std::set<std::string>& addresses() const { return addresses_; }
+
  private:
   const int number_;
+  const std::set<std::string> addresses_;
 };
 
 std::string configuration(const std::filesystem::path& profile) {
@@ -68,14 +76,17 @@ Error refused_by_plugins(int domain, const SecuritySettings& security) {
 }
 
 /// Creates the domain unless it exists; empty: other code of the process created it.
-Result<std::shared_ptr<const void>> use_domain(int number, const std::filesystem::path& profile) {
+Result<std::shared_ptr<const DomainUse>> use_domain(int number,
+                                                    const std::filesystem::path& profile) {
   const std::lock_guard lock(domains_mutex);
   if (!domains.contains(number)) {
+    const auto earlier = open_sockets();
     const auto handle =
         dds_create_domain(static_cast<dds_domainid_t>(number), configuration(profile).c_str());
     if (handle == DDS_RETCODE_PRECONDITION_NOT_MET) return nullptr;
     if (handle < 0) return tl::unexpected(cannot_join(number, handle));
     domains[number].entity = Entity(handle);
+    domains[number].addresses = bound_addresses(earlier);
   }
   return std::make_shared<const DomainUse>(number);
 }
@@ -110,6 +121,7 @@ Result<Participant> Participant::join(int domain, const std::optional<SecuritySe
   auto used = use_domain(domain, profile);
   if (!used) return tl::unexpected(used.error());
   Participant participant;
+  participant.addresses_ = *used ? (*used)->addresses() : bound_addresses();
   participant.domain_ = std::move(*used);
   const auto handle =
       dds_create_participant(static_cast<dds_domainid_t>(domain), qos->get(), nullptr);
@@ -124,6 +136,7 @@ Result<Participant> Participant::join(int domain, const std::optional<SecuritySe
 void Participant::leave() {
   entity_.reset();
   domain_.reset();
+  addresses_.clear();
 }
 
 }  // namespace orbwatch::app::dds

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,6 +35,7 @@ class Participant {
   Participant& operator=(Participant&& other) noexcept {
     std::swap(domain_, other.domain_);
     std::swap(entity_, other.entity_);
+    std::swap(addresses_, other.addresses_);
     return *this;
   }
 
@@ -52,10 +54,16 @@ class Participant {
 
   const Entity& entity() const { return entity_; }
 
-  /// Empty: other code created the domain.
+  /// Addresses that the domain sends from, as bound_addresses(): those of the sockets that were
+  /// opened while it was created. If other code created it, those of all UDP sockets of the
+  /// process.
+  const std::set<std::string>& addresses() const { return addresses_; }
+
  private:
+  /// Empty: other code created the domain.
   std::shared_ptr<const void> domain_;
   Entity entity_;
+  std::set<std::string> addresses_;
 };
 
 }  // namespace orbwatch::app::dds

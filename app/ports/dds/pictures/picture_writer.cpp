@@ -57,10 +57,7 @@ void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
 }
 
 void JpegPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
-  auto jpeg = encoder_.encode(stamped.picture, quality_.current());
-  while (jpeg && quality_.adapt(jpeg->size())) {
-    jpeg = encoder_.encode(stamped.picture, quality_.current());
-  }
+  const auto jpeg = encoder_.encode(stamped.picture, quality_);
   if (!jpeg) {
     topic.count_failure(jpeg.error().message);
     return;

@@ -18,6 +18,8 @@ template <class Visitor>
 void visit(Visitor& v, SecuritySettings& security) {
   v.required("folder", security.folder,
              "Folder with certificate, key and permissions, made by `orbwatch dds-keys`");
+  v.require(!security.folder.empty(), "folder",
+            "is empty; set the folder of the keys, as \"keys/enclaves/appliance\"");
 }
 
 /// Checks the files like check_enclave(), behind links to the folder as they are at this moment.

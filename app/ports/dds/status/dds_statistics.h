@@ -32,7 +32,8 @@ constexpr void for_each_field(std::type_identity<CommandCounts>, Visit&& visit) 
 #define ORBWATCH_DDS_COUNTS(FIELD)                                                          \
   FIELD(std::uint64_t, joins, kCount,                                                       \
         "Joins of the domain: 1, and one more for each change of addresses")                \
-  FIELD(std::uint64_t, dropped_states, kCount, "States replaced by a newer one")            \
+  FIELD(std::uint64_t, dropped_states, kCount,                                              \
+        "States replaced by a newer one, and results beyond the eight that may wait")       \
   FIELD(std::uint64_t, dropped_events, kCount, "Events lost because the queue was full")    \
   FIELD(std::uint64_t, unknown_views, kCount, "Pictures of views beyond the list of names") \
   FIELD(std::uint64_t, mistyped, kCount,                                                    \

@@ -32,13 +32,19 @@ constexpr int registers_of() {
   return next;
 }
 
+/// Returns whether the field is an alarm's value, whose quantity is its signal's.
+template <class Part>
+constexpr bool is_signal_value(const FieldInfo& field) {
+  return std::is_same_v<Part, AlarmStatus> && field.name == "value";
+}
+
 /// The quantity of a field in a part; that of an alarm's value is its signal's.
 template <class Part>
-Quantity quantity_in(const Part& /*part*/, const FieldInfo& field) {
+Quantity quantity_in(const Part& part, const FieldInfo& field) {
+  if constexpr (std::is_same_v<Part, AlarmStatus>) {
+    if (is_signal_value<Part>(field)) return quantity_of(part);
+  }
   return field;
-}
-inline Quantity quantity_in(const AlarmStatus& alarm, const FieldInfo& field) {
-  return field.name == "value" ? quantity_of(alarm) : Quantity(field);
 }
 
 /// Appends the rows of one part to `rows`, in the order of their addresses; `find` returns the part
@@ -104,10 +110,17 @@ class Block {
     } else if constexpr (std::is_same_v<Value, hal::TimePoint>) {
       description += "; 2147483647: longer ago, or never";
     }
-    return row(type_of<Value>(), field.name, quantity, description,
-               [field](const Part& part, const ProcessImage& image) {
-                 return encoded(std::invoke(field.get, part), quantity_in(part, field), image.now);
-               });
+    if (is_signal_value<Part>(field)) description += "; register = value / scale of its signal";
+    row(type_of<Value>(), field.name, quantity, description,
+        [field](const Part& part, const ProcessImage& image) {
+          return encoded(std::invoke(field.get, part), quantity_in(part, field), image.now);
+        });
+    if (is_signal_value<Part>(field)) {
+      rows_.back().present_quantity = [find = find_, field](const ProcessImage& image) {
+        return quantity_in(find(image), field);
+      };
+    }
+    return *this;
   }
 
   /// A described name, two bytes a register.
@@ -140,12 +153,6 @@ class Block {
   Block& written(std::function<void(PlcRegisters&, std::uint32_t)> write) {
     rows_.back().access = Access::ReadWrite;
     rows_.back().write = std::move(write);
-    return *this;
-  }
-
-  /// Allows the newest row, a DINT, to be written as not valid.
-  Block& or_unknown() {
-    rows_.back().may_be_unknown = true;
     return *this;
   }
 

@@ -37,10 +37,11 @@ struct Row {
   /// Value in the unit = register * scale; writes outside the range are refused.
   Quantity quantity{};
   std::string description{};
-  bool may_be_unknown = false;  ///< a DINT that may be written as not valid
 
   /// The register's content; 16-bit values in the low half. Empty: reserved.
   std::function<std::uint32_t(const ProcessImage& image)> read{};
+  /// Present quantity of a value whose unit and scale depend on the state; empty: `quantity`.
+  std::function<Quantity(const ProcessImage& image)> present_quantity{};
   /// Empty: read-only.
   std::function<void(PlcRegisters& registers, std::uint32_t value)> write{};
 };

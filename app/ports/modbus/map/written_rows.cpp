@@ -110,8 +110,7 @@ void add_machine_state_rows(std::vector<Row>& rows) {
              [i](P plc, I) { return plc.machine.values[i]; })
         .written([i](Plc& plc, Value written) {
           plc.machine.values[i] = static_cast<std::int32_t>(written);
-        })
-        .or_unknown();
+        });
   }
   assert(rows.back().address + rows.back().count >= kWholeMachineState.end);
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/ports/modbus/map/encoding.h"
-
 namespace orbwatch::app::modbus {
 namespace {
 
@@ -169,11 +167,9 @@ std::optional<Exception> check(const Write& write, const RegisterMap& map) {
   // The standard's state diagrams check all addresses before any value.
   for (int i = 0; i < count;) {
     const Row* row = map.find(table, address + i);
-    const std::uint32_t code = written(write, static_cast<std::size_t>(i), *row);
-    const bool is_unknown = row->may_be_unknown && code == kNotValidCode;
+    const double value = in_unit(written(write, static_cast<std::size_t>(i), *row), *row);
     i += row->count;
-    if (is_unknown) continue;
-    const double value = in_unit(code, *row);
+    if (writes_machine_state({table, row->address, row->count})) continue;
     if (value < row->quantity.minimum || value > row->quantity.maximum)
       return Exception::IllegalDataValue;
   }

@@ -66,8 +66,8 @@ std::optional<Exception> check(const Range& read, const RegisterMap& map);
 bool writes_machine_state(const Range& range);
 
 /// Checks a write; a read-only place, half of a 32-bit value or a part of the machine's state gives
-/// IllegalDataAddress, a value
-/// outside the row's range IllegalDataValue. Reentrant.
+/// IllegalDataAddress, a value outside the row's range IllegalDataValue. Values of the machine's
+/// state are left to take_machine_state(). Reentrant.
 std::optional<Exception> check(const Write& write, const RegisterMap& map);
 
 /// Executes a checked write.

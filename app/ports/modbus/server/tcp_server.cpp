@@ -94,7 +94,8 @@ Result<> TcpServer::listen() {
   auto address = hal::parse_address(settings_.address, settings_.port);
   if (!address) {
     return fail("modbus: address '" + settings_.address +
-                "' is not a numeric IP address; set one of this machine, or 0.0.0.0 for all");
+                "' is not a numeric IP address, or its network interface is absent; set one of "
+                "this machine, or 0.0.0.0 for all");
   }
   const auto refused = [this] {
     const int error = errno;

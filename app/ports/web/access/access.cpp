@@ -41,6 +41,12 @@ Access::Refusal too_many(const std::string& what, std::chrono::seconds wait) {
           wait};
 }
 
+/// A fault of the appliance, not of the client: counts as no failed login.
+Access::Refusal out_of_memory() {
+  return {503,
+          "the password cannot be checked: less than 64 MiB of memory is free; try again later"};
+}
+
 }  // namespace
 
 Utc Access::utc_now() {
@@ -283,7 +289,9 @@ tl::expected<User, Access::Refusal> Access::judge(const std::string& name,
     if (auto refusal = judge_login(name, peer)) return tl::unexpected(std::move(*refusal));
     if (const User* found = users_.find(name)) user = *found;
   }
-  const bool is_right = is_password(user.password, password);
+  const PasswordMatch match = match_password(user.password, password);
+  if (match == PasswordMatch::OutOfMemory) return tl::unexpected(out_of_memory());
+  const bool is_right = match == PasswordMatch::Right;
   {
     const std::lock_guard lock(mutex_);
     if (is_right) {

@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/web/access/slow_work.h"
 
+#include <new>
 #include <utility>
 
 namespace orbwatch::app::web {
+namespace {
+
+/// Answer of `work`. One that finds no memory, such as for pictures of a recording of any origin,
+/// must not end the daemon.
+Response answer_of(const std::function<Response()>& work) try {
+  return work();
+} catch (const std::bad_alloc&) {
+  return error_response(503, "not enough memory for this request; try again later");
+}
+
+}  // namespace
 
 void SlowWork::start() {
   thread_.start(thread_name_, hal::ThreadRole::Background, [this] {
@@ -36,7 +48,7 @@ void SlowWork::work_all() {
   while (!thread_.stop_requested()) {
     const auto next = this->next();
     if (!next) return;
-    if (next->exchange->begin_effect()) next->exchange->answer(next->work());
+    if (next->exchange->begin_effect()) next->exchange->answer(answer_of(next->work));
   }
 }
 

@@ -40,8 +40,8 @@ class SlowWork {
   void start();
   void stop() { thread_.stop(); }
 
-  /// `work` makes the answer. It is not started if the request was answered by its deadline; once
-  /// started its answer is sent, however late.
+  /// `work` makes the answer; without enough memory for it the answer is 503. It is not started if
+  /// the request was answered by its deadline; once started its answer is sent, however late.
   void run(const ExchangePtr& exchange, const Asker& asker, std::function<Response()> work);
 
   std::chrono::nanoseconds cpu_time() const { return thread_.cpu_time(); }

@@ -11,13 +11,24 @@ namespace {
 
 /// Bytes of the values by which the audit tells changes apart.
 constexpr std::size_t kMostCompared = 256;
+/// Bytes of a value in an entry, so that no client fills the audit's files with a few entries.
+constexpr std::size_t kMostOfValue = 4096;
 constexpr int kOk = 200, kTooManyRequests = 429, kUnavailable = 503;
+
+/// The value, cut between characters of UTF-8.
+std::string cut_value(const std::string& value) {
+  if (value.size() <= kMostOfValue) return value;
+  std::size_t end = kMostOfValue;
+  while (end > 0 && (static_cast<unsigned char>(value[end]) & 0xC0U) == 0x80U) --end;
+  return value.substr(0, end);
+}
 
 /// The last part of the path is the action.
 Audit::Entry entry_of(const ChangeRequest& change, bool is_done) {
   const std::string& path = change.request.path;
-  return {std::chrono::system_clock::now(), change.caller.name, client_address(change.request),
-          path.substr(path.rfind('/') + 1), change.before,      change.after,
+  return {std::chrono::system_clock::now(), change.caller.name,
+          client_address(change.request),   path.substr(path.rfind('/') + 1),
+          cut_value(change.before),         cut_value(change.after),
           is_done ? "done" : "refused"};
 }
 
@@ -73,14 +84,16 @@ Response Changes::refuse_unknown(const ChangeRequest& change, const Access::Refu
 }
 
 /// Requests refused for their rate are counted if they come without a role, and otherwise not
-/// recorded, because they would displace all other entries.
+/// recorded, because they would displace all other entries. A user's refusals of one action are of
+/// one kind, whatever their values, because the client chooses these.
 void Changes::note(const ChangeRequest& change, Role role, int status) {
   if (status == kUnavailable || change.changes_nothing) return;
   if (role == Role::Nobody && status != kOk) {
     audit_.note_refused(entry_of(change, false));
   } else if (status != kTooManyRequests) {
-    audit_.note(entry_of(change, status == kOk),
-                (change.before + change.after).substr(0, kMostCompared));
+    const bool is_done = status == kOk;
+    audit_.note(entry_of(change, is_done),
+                is_done ? (change.before + change.after).substr(0, kMostCompared) : "");
   }
 }
 

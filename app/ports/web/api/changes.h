@@ -22,7 +22,7 @@ struct ChangeRequest {
   Caller caller{};  ///< set before the handler runs
   /// Name that an unknown client states, for its place in the queue; empty: none.
   std::string claimed_name{};
-  std::string before{}, after{};  ///< values for the audit
+  std::string before{}, after{};  ///< values for the audit, which has the first 4 KiB of each
   Values headers{};               ///< of the response, in addition to its usual ones
   bool changes_nothing = false;   ///< not recorded in the audit
 };

@@ -58,7 +58,8 @@ void CommandRunner::carry_out_all() {
     const auto handle = [&](const Command& command) {
       return next->exchange->begin_effect() ? handler_(command) : CommandResult::NotCarriedOut;
     };
-    const CommandResult result = record_->carry_out({kClient, ++number_}, next->command, handle);
+    const CommandResult result =
+        record_->carry_out_audited({kClient, ++number_}, next->command, handle);
     next->on_result(result);
     answer(*next->exchange, result);
   }

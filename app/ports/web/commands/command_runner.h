@@ -43,8 +43,8 @@ class CommandRunner {
   /// Executes waiting commands, then stops.
   void stop() { thread_.stop(); }
 
-  /// `on_result` is called before the answer, on the runner's thread, unless the command was
-  /// refused as busy.
+  /// `on_result` audits the command: it is called before the answer, on the runner's thread, unless
+  /// the command was refused as busy.
   void run(const Command& command, const ExchangePtr& exchange, OnResult on_result);
 
   std::uint64_t done() const { return done_; }

@@ -12,8 +12,6 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// Longest diff stored in the audit, in bytes.
-constexpr std::size_t kMostNoted = 4096;
 /// Entries of the audit among which the last change of a file is searched.
 constexpr std::size_t kMostSearched = 1000;
 
@@ -68,7 +66,7 @@ std::string side_of(const std::string& difference, char side) {
     if (line.starts_with(other)) continue;
     text += line.substr(line.starts_with(side) ? 1 : 0) + "\n";
   }
-  return text.substr(0, kMostNoted);
+  return text;
 }
 
 /// Compares two moments in ISO 8601, to the second.

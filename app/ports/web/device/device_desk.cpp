@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/model/status/utc_text.h"
 #include "app/ports/web/access/base64.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr const char* kNoDevice = "there is no state folder of this configuration";
 constexpr const char* kNoImage =
     "this computer does not run an image with two slots; update its packages";
+constexpr const char* kAnotherBackup = "another backup was uploaded meanwhile; check it first";
 /// RFC 8878.
 constexpr std::string_view kZstd = "application/zstd";
 
@@ -88,13 +90,17 @@ Answered<UploadAnswer> DeviceDesk::upload(Change<UploadBody>& change) {
   if (!bytes) return refuse(400, "bytes is not Base64 with padding");
   const auto size = device_->upload(offset, *bytes);
   if (!size) return refuse(size.error());
+  if (offset == 0) uploaded_.restart();
+  uploaded_.add(*bytes);
   return UploadAnswer{*size};
 }
 
-Answered<ContentsAnswer> DeviceDesk::check(Change<RestoreBody>& change) {
+Answered<CheckAnswer> DeviceDesk::check(Change<DeviceFiles::Restore>& change) {
   change.changes_nothing = true;
   if (!device_) return refuse(404, kNoDevice);
-  return contents_of(device_->check(change.body.restore));
+  return contents_of(device_->check(change.body)).map([this](ContentsAnswer contents) {
+    return CheckAnswer{std::move(contents), uploaded_.digits()};
+  });
 }
 
 /// Error: a configuration is on trial, and would be reverted to files that are replaced.
@@ -108,7 +114,9 @@ Answered<Nothing> DeviceDesk::check_replaceable() const {
 
 Answered<ContentsAnswer> DeviceDesk::restore(Change<RestoreBody>& change) {
   if (const auto may = check_replaceable(); !may) return tl::unexpected(may.error());
-  auto contents = contents_of(device_->restore(change.body.restore));
+  const RestoreBody& body = change.body;
+  if (body.sha256 && *body.sha256 != uploaded_.digits()) return refuse(409, kAnotherBackup);
+  auto contents = contents_of(device_->restore(body.restore));
   if (!contents) return contents;
   change.after = origin_of(*contents);
   device_->restart();

@@ -11,6 +11,7 @@
 #include "app/model/configuration/configuration_files.h"
 #include "app/model/configuration/device_files.h"
 #include "app/model/configuration/device_update.h"
+#include "app/ports/web/access/sha256.h"
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/api/route.h"
@@ -41,7 +42,7 @@ class DeviceDesk {
   Answered<MadeAnswer> make_backup(Change<BackupBody>& change);
   void download(const DeviceFileQuery& query, const ExchangePtr& exchange);
   Answered<UploadAnswer> upload(Change<UploadBody>& change);
-  Answered<ContentsAnswer> check(Change<RestoreBody>& change);
+  Answered<CheckAnswer> check(Change<DeviceFiles::Restore>& change);
   Answered<ContentsAnswer> restore(Change<RestoreBody>& change);
   Answered<Done> reset(Change<ResetBody>& change);
   void update(const ExchangePtr& exchange);
@@ -64,6 +65,7 @@ class DeviceDesk {
   /// Paths of made files by kind; used on the thread of changes only.
   std::shared_ptr<std::map<DeviceFile, std::filesystem::path>> made_ =
       std::make_shared<std::map<DeviceFile, std::filesystem::path>>();
+  Sha256 uploaded_;  ///< of the uploaded backup; used on the thread of changes only
 };
 
 }  // namespace orbwatch::app::web

@@ -19,6 +19,14 @@ void visit(Visitor& v, DeviceFiles::CameraAddress& camera) {
   v.required("address", camera.address, "Its device here: serial number, id or device node");
 }
 
+template <class Visitor>
+void visit(Visitor& v, DeviceFiles::Restore& restore) {
+  v.required("passphrase", restore.passphrase,
+             "Of the backup; null: this device's users, certificates and keys are kept");
+  v.optional("cameras", restore.cameras, "Cameras that are other devices here");
+  v.optional("events", restore.events, "Also the kept events of the backup");
+}
+
 }  // namespace orbwatch::app
 
 /// Bodies and answers of DeviceDesk.
@@ -84,15 +92,17 @@ void visit(Visitor& v, UploadAnswer& answer) {
   v.required("size", answer.size, "Size of what has arrived, the next offset", "B");
 }
 
+/// A restore, of the backup that was checked if its hash is stated.
 struct RestoreBody {
   DeviceFiles::Restore restore;
+  std::optional<std::string> sha256;
 };
 template <class Visitor>
 void visit(Visitor& v, RestoreBody& body) {
-  v.required("passphrase", body.restore.passphrase,
-             "Of the backup; null: this device's users, certificates and keys are kept");
-  v.optional("cameras", body.restore.cameras, "Cameras that are other devices here");
-  v.optional("events", body.restore.events, "Also the kept events of the backup");
+  visit(v, body.restore);
+  v.optional("sha256", body.sha256,
+             "SHA-256 as POST /api/v1/check_restore returned it: 409 if another backup was "
+             "uploaded since then; without it the newest upload is restored");
 }
 
 struct ChangedFile {
@@ -135,6 +145,18 @@ void visit(Visitor& v, ContentsAnswer& answer) {
   v.required("left_out", answer.left_out, "Other files that the backup does not have");
   v.required("cameras", answer.cameras, "Cameras that are one device each");
   v.required("notes", answer.notes, "Other settings that depend on the device");
+}
+
+/// Contents of a checked backup.
+struct CheckAnswer {
+  ContentsAnswer contents;
+  std::string sha256;
+};
+template <class Visitor>
+void visit(Visitor& v, CheckAnswer& answer) {
+  visit(v, answer.contents);
+  v.required("sha256", answer.sha256,
+             "SHA-256 of the uploaded file in hexadecimal digits, for POST /api/v1/restore");
 }
 
 /// Text that confirms a factory reset.

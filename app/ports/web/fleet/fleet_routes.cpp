@@ -6,7 +6,7 @@ namespace orbwatch::app::web {
 Answered<FleetAnswer> FleetRoutes::list() const {
   if (!fleet_) return FleetAnswer{{}, 0, 0, "set enabled = true in [dds]"};
   const auto now = hal::Clock::now();
-  fleet_->look(now);
+  fleet_->note_viewer(now);
   const Fleet::Counts counts = fleet_->counts();
   return FleetAnswer{sent_appliances(fleet_->list(now), now), counts.turned_away, counts.refused,
                      std::nullopt};

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,13 +16,13 @@
 #include "app/model/status/status.h"
 #include "app/ports/web/api/record_schema.h"
 #include "hal/atomic_file.h"
+#include "hal/boot_id.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::web {
 namespace {
 
 namespace fs = std::filesystem;
-using SystemTime = std::chrono::system_clock::time_point;
 
 /// More than the largest history takes.
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
@@ -38,13 +39,18 @@ void visit(Visitor& v, FileTrack& track) {
 }
 
 struct FileHead {
+  std::string boot;
+  std::int64_t end_since_boot = 0;
   std::int64_t end = 0;
   std::size_t steps = 0;
   std::vector<FileTrack> tracks;
 };
 template <class Visitor>
 void visit(Visitor& v, FileHead& head) {
+  v.required("boot", head.boot, "hal::boot_id()");
   // Within 64 bits.
+  v.required("end_since_boot", head.end_since_boot, Range::between(0, 9e18),
+             "End of the newest step by hal::Clock", "ns");
   v.required("end", head.end, Range::between(0, 9e18), "End of the newest step, UTC", "ns");
   v.required("steps", head.steps, Range::between(0, FigureHistory::kSteps), "Number of steps");
   v.required("tracks", head.tracks, "Components");
@@ -56,6 +62,18 @@ Result<FileHead> head_of(const std::string& line, const std::string& file) {
   return check_form(json, schema_of<FileHead, Sent::ByUs>(), file).and_then([&] {
     return record_of<FileHead>(json);
   });
+}
+
+/// Age of the newest step: by the kernel's clock within a boot, which no correction of UTC changes.
+/// Nothing after another boot while UTC is not certain: without a battery the clock continues where
+/// it was at power-off, and old figures would count as recent.
+std::optional<hal::Clock::duration> age_of(const FileHead& head, bool is_utc_certain) {
+  using std::chrono::nanoseconds;
+  if (!head.boot.empty() && head.boot == hal::boot_id()) {
+    return hal::Clock::now().time_since_epoch() - nanoseconds(head.end_since_boot);
+  }
+  if (!is_utc_certain) return std::nullopt;
+  return std::chrono::system_clock::now().time_since_epoch() - nanoseconds(head.end);
 }
 
 /// Takes the steps from the front of `bytes`, which has them.
@@ -92,6 +110,7 @@ Result<std::vector<FigureHistory::Kept>> kept_of(const FileHead& head, std::stri
 
 Result<> write_figures(const fs::path& file, const FigureHistory& history) {
   FileHead head;
+  head.boot = hal::boot_id();
   std::string bytes;
   for (const Component& component : history.components()) {
     FileTrack& track =
@@ -101,6 +120,7 @@ Result<> write_figures(const fs::path& file, const FigureHistory& history) {
       if (!series) continue;
       track.figures.emplace_back(figure);
       head.steps = series->steps.size();
+      head.end_since_boot = std::chrono::nanoseconds(series->end.time_since_epoch()).count();
       head.end = std::chrono::nanoseconds(hal::to_utc(series->end).time_since_epoch()).count();
       const auto as_bytes = std::as_bytes(std::span(series->steps));
       bytes.append(reinterpret_cast<const char*>(as_bytes.data()), as_bytes.size());
@@ -109,7 +129,7 @@ Result<> write_figures(const fs::path& file, const FigureHistory& history) {
   return hal::write_file(file, json_text(json_of(head)) + "\n" + bytes, hal::FileAccess::Owner);
 }
 
-Result<> resume_figures(const fs::path& file, FigureHistory& history) {
+Result<> resume_figures(const fs::path& file, FigureHistory& history, bool is_utc_certain) {
   std::error_code none;
   if (!fs::exists(file, none) && !none) return {};
   const auto text = hal::read_regular_file(file, kMostBytes);
@@ -120,13 +140,15 @@ Result<> resume_figures(const fs::path& file, FigureHistory& history) {
   const auto bytes = std::string_view(*text).substr(std::min(line, text->size() - 1) + 1);
   const auto kept = kept_of(*head, bytes, file.string());
   if (!kept) return tl::unexpected(kept.error());
-  const SystemTime end{
-      std::chrono::duration_cast<SystemTime::duration>(std::chrono::nanoseconds(head->end))};
-  const auto age = std::chrono::system_clock::now() - end;
-  if (age < SystemTime::duration::zero()) return fail(file.string() + ": ends in the future");
-  if (age >= FigureHistory::kStep * FigureHistory::kSteps) return {};
+  const auto age = age_of(*head, is_utc_certain);
+  if (!age) {
+    return fail(file.string() +
+                ": from before this boot, and no time server has set the clock yet");
+  }
+  if (*age < hal::Clock::duration::zero()) return fail(file.string() + ": ends in the future");
+  if (*age >= FigureHistory::kStep * FigureHistory::kSteps) return {};
   const auto now = hal::Clock::now();
-  history.resume(*kept, now - std::chrono::duration_cast<hal::TimePoint::duration>(age), now);
+  history.resume(*kept, now - *age, now);
   return {};
 }
 

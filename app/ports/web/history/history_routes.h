@@ -17,7 +17,7 @@ namespace orbwatch::app::web {
 inline constexpr std::string_view kCsv = "text/csv; charset=utf-8";
 
 /// Keeps and serves the history of figures and of alarms, also over restarts. Thread rule: accept
-/// on the pipeline's thread, advance and keep on one thread, everything else on any thread.
+/// on the pipeline's thread, advance on one thread, keep on one, everything else on any thread.
 class HistoryRoutes {
  public:
   /// `state_folder` empty: nothing is kept.

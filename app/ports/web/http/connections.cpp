@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/ports/web/http/address.h"
+#include "hal/acknowledged_bytes.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -81,10 +82,17 @@ bool Connections::begin_answer(Connection* connection, const ExchangePtr& exchan
   return !is_closing_ && !connection->is_beyond;
 }
 
-void Connections::begin_sending(Connection* connection) {
+void Connections::begin_sending(Connection* connection, const Response& response) {
   const std::lock_guard lock(mutex_);
   connection->exchange.reset();
+  connection->is_sending = true;
+  connection->read = hal::acknowledged_bytes(connection->socket);
   connection->deadline = hal::Clock::now() + timeout_;
+  connection->latest_deadline = hal::TimePoint::max();
+  if (!response.file) return;
+  const auto seconds = static_cast<std::int64_t>(response.file->size / kLeastRate);
+  connection->latest_deadline = connection->deadline + std::chrono::seconds(seconds);
+  connection->may_go_on = response.may_go_on;
 }
 
 bool Connections::begin_stream(Connection* connection, const std::shared_ptr<StreamSender>& stream,
@@ -105,8 +113,18 @@ void Connections::end_answer(Connection* connection) {
   connection->stream.reset();
   connection->may_go_on = nullptr;
   connection->deadline = hal::Clock::now() + timeout_;
-  connection->is_answering = false;
+  connection->is_answering = connection->is_sending = false;
   sent_.notify_all();
+}
+
+/// True: the client reads its answer fast enough to go on. mutex_ is held.
+bool Connections::gets_another_term(Connection& connection, hal::TimePoint now) const {
+  if (!connection.is_sending || now >= connection.latest_deadline) return false;
+  const std::uint64_t read = hal::acknowledged_bytes(connection.socket);
+  if (read < connection.read + kLeastProgress) return false;
+  connection.read = read;
+  connection.deadline = std::min<hal::TimePoint>(now + timeout_, connection.latest_deadline);
+  return true;
 }
 
 std::size_t Connections::end_overdue(hal::TimePoint now) {
@@ -115,7 +133,7 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
   {
     const std::lock_guard lock(mutex_);
     for (Connection& connection : all_) {
-      const bool is_overdue = now >= connection.deadline;
+      const bool is_overdue = now >= connection.deadline && !gets_another_term(connection, now);
       const bool may_go_on = !connection.may_go_on || connection.may_go_on();
       const bool gone = has_gone(connection.socket);
       const bool had_gone = std::exchange(connection.has_gone, gone);
@@ -128,7 +146,7 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
       const bool waits_for_answer = !connection.exchange.expired();
       const bool asks_nothing = gone && had_gone && !connection.is_answering;
       ends.add(connection);
-      if ((is_overdue && !waits_for_answer) || asks_nothing) {
+      if ((is_overdue && !waits_for_answer) || !may_go_on || asks_nothing) {
         ::shutdown(connection.socket, SHUT_RDWR);
       }
     }

@@ -8,6 +8,11 @@
 
 namespace orbwatch::app::web {
 
+void Exchange::send_file_while(std::function<bool()> may_go_on) {
+  const std::lock_guard lock(mutex_);
+  file_may_go_on_ = std::move(may_go_on);
+}
+
 bool Exchange::answer(Response response) {
   // The time of compression is spent outside the lock.
   response = packed_for(request_, if_none_match(request_, std::move(response)));
@@ -30,6 +35,7 @@ bool Exchange::give_up(Response response) {
 bool Exchange::answer_locked(Response response) {
   if (is_answered_) return false;
   is_answered_ = true;
+  if (response.file && !response.may_go_on) response.may_go_on = std::move(file_may_go_on_);
   response_ = std::move(response);
   if (suspended_) ::MHD_resume_connection(std::exchange(suspended_, nullptr));
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,6 +20,9 @@ class Exchange {
   explicit Exchange(Request request) : request_(std::move(request)) {}
 
   const Request& request() const { return request_; }
+
+  /// Sets Response::may_go_on of an answer that is a file and has none; called before the answer.
+  void send_file_while(std::function<bool()> may_go_on);
 
   /// Answers the request with the response after if_none_match() and packed_for(). False: it was
   /// answered before, for example by the server's deadline.
@@ -44,6 +48,7 @@ class Exchange {
   mutable std::mutex mutex_;
   bool is_answered_ = false;
   bool has_effect_ = false;
+  std::function<bool()> file_may_go_on_;
   std::optional<Response> response_;
   MHD_Connection* suspended_ = nullptr;  ///< null: not suspended
 };

@@ -70,7 +70,8 @@ struct Response {
   std::string tag{};  ///< entity_tag() of the content, if clients may keep it; empty: they may not
   std::shared_ptr<Stream> stream;
   Values headers;  ///< in addition to those of every answer
-  /// Returns whether the client may still receive the stream; called repeatedly. Empty: always.
+  /// Returns whether the client may still receive the stream or file; called repeatedly. Empty:
+  /// always.
   std::function<bool()> may_go_on;
 };
 

@@ -17,7 +17,7 @@ Result<std::shared_ptr<const OpenFile>> open_file(const std::filesystem::path& p
   if (!file.is_open() || ::fstat(file.get(), &status) != 0) {
     return fail(path.string() + ": " + std::strerror(errno));
   }
-  if (!S_ISREG(status.st_mode)) return fail(path.string() + " is no regular file");
+  if (!S_ISREG(status.st_mode)) return fail(path.string() + " is not a regular file");
   return std::make_shared<const OpenFile>(
       OpenFile{std::move(file), static_cast<std::uint64_t>(status.st_size)});
 }

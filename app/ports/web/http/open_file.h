@@ -16,7 +16,7 @@ struct OpenFile {
   std::uint64_t size = 0;  ///< bytes when it was opened
 };
 
-/// Error: file and reason; also what is no regular file, such as a pipe. Reentrant.
+/// Error: file and reason; also for what is not a regular file, such as a pipe. Reentrant.
 Result<std::shared_ptr<const OpenFile>> open_file(const std::filesystem::path& path);
 
 }  // namespace orbwatch::app::web

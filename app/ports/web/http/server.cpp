@@ -218,7 +218,7 @@ MHD_Result Server::Callbacks::send(Server& server, MHD_Connection* connection, A
   const auto response = arriving.exchange->response_or_suspend(connection);
   if (!response) return MHD_YES;
   if (response->stream) return send_stream(server, connection, *response);
-  server.connections_.begin_sending(&own);
+  server.connections_.begin_sending(&own, *response);
   const Reply reply = make_reply(*response, server.endpoint_.headers);
   if (!reply) return MHD_NO;
   return ::MHD_queue_response(connection, static_cast<unsigned>(response->status), reply.get());
@@ -265,7 +265,9 @@ Result<> Server::listen() {
   own_ = {settings_.names, std::move(*trusted)};
   const auto address = hal::parse_address(endpoint_.address, endpoint_.port);
   const std::string where = endpoint_.address + " port " + std::to_string(endpoint_.port);
-  if (!address) return fail("web: " + where + ": is not a numeric address");
+  if (!address) {
+    return fail("web: " + where + ": is not a numeric address, or its network interface is absent");
+  }
   const bool is_v6 = address->family() == AF_INET6, is_secure = endpoint_.pem.has_value();
   const unsigned flags =
       static_cast<unsigned>(MHD_USE_EPOLL_INTERNAL_THREAD) | static_cast<unsigned>(MHD_USE_ITC) |

@@ -33,11 +33,6 @@ void StreamSender::end() {
   resume();
 }
 
-bool StreamSender::is_suspended() const {
-  const std::lock_guard lock(mutex_);
-  return is_suspended_;
-}
-
 void StreamSender::resume() {
   if (!is_suspended_) return;
   is_suspended_ = false;

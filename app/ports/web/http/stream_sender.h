@@ -27,7 +27,6 @@ class StreamSender {
   /// Ends the stream. Its socket must have been shut down: the next write fails, and closes the
   /// connection.
   void end();
-  bool is_suspended() const;
 
  private:
   void resume();

@@ -50,11 +50,14 @@ void visit(Visitor& v, SentLine& line) {
 }
 
 struct LogAnswer {
+  std::string started;
   std::uint64_t newest = 0;
   std::vector<SentLine> lines;
 };
 template <class Visitor>
 void visit(Visitor& v, LogAnswer& answer) {
+  v.required("started", answer.started,
+             "Start of the program, UTC, ISO 8601; lines are counted from it");
   v.required("newest", answer.newest, "Number of the newest line of all");
   v.required("lines", answer.lines, "Selected lines, oldest first");
 }

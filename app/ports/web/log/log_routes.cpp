@@ -21,7 +21,7 @@ SentLine sent_line(const RecentLog::Line& line) {
 Answered<LogAnswer> LogRoutes::lines(const LogQuery& query) const {
   if (!log_) return refuse(404, "this program keeps no lines of its log");
   // Read before the lines, so that no line added meanwhile is skipped.
-  LogAnswer answer{log_->newest_number(), {}};
+  LogAnswer answer{utc_text(log_->started()).value_or(""), log_->newest_number(), {}};
   for (const RecentLog::Line& line : log_->newest(query.wanted)) {
     answer.lines.push_back(sent_line(line));
     answer.newest = std::max(answer.newest, line.number);

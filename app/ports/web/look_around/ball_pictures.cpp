@@ -26,33 +26,46 @@ BallPictures::BallPictures(const WebContext& context) : source_(context.alignmen
   }
 }
 
-std::vector<LiveStream::Source> BallPictures::feeds() const {
-  std::vector<LiveStream::Source> feeds;
-  for (const Ball& ball : balls_) feeds.push_back({ball.name, ball.feed});
-  return feeds;
+std::vector<PictureSource> BallPictures::sources() const {
+  std::vector<PictureSource> sources;
+  for (const Ball& ball : balls_) sources.push_back({ball.name, ball.view->width(), ball.feeds});
+  return sources;
+}
+
+void BallPictures::follow() {
+  for (const Ball& ball : balls_) {
+    for (std::size_t size = 0; size < kQuarters.size(); ++size) {
+      if (ball.feeds.of(size)->is_wanted()) request(ball, size);
+    }
+  }
 }
 
 /// A picture is wanted until it comes, so that a camera that was unplugged continues. A refused
-/// request is repeated by the next call; the status states the camera's fault.
-void BallPictures::follow() {
-  for (const Ball& ball : balls_) {
-    if (!ball.feed->is_wanted() || ball.is_requested->exchange(true)) continue;
-    const auto on_pictures = [feed = ball.feed,
-                              is_requested = ball.is_requested](Result<AlignmentJpegs> made) {
-      if (made) {
-        Item picture;
-        picture.bytes = std::make_shared<const std::string>(std::move(made->files.front()));
-        picture.stamp = made->stamp;
-        feed->publish(std::move(picture));
-      } else {
-        log_line(LogLevel::Error, "web: " + made.error().message);
-      }
-      *is_requested = false;
-    };
-    AlignmentPicture picture;
-    picture.camera = ball.camera;
-    if (!source_->request(picture, on_pictures, [] { return true; })) *ball.is_requested = false;
-  }
+/// request is repeated by the next follow(); the status states the camera's fault.
+void BallPictures::request(const Ball& ball, std::size_t size) {
+  std::atomic<bool>& is_pending = ball.requests->are_pending[size];
+  if (is_pending.exchange(true)) return;
+  const int width = ball.view->width(), height = ball.view->height();
+  AlignmentPicture wanted;
+  wanted.camera = ball.camera;
+  wanted.width = side_in(size, width);
+  wanted.height = side_in(size, height);
+  const auto on_pictures = [feed = ball.feeds.of(size), requests = ball.requests, size, width,
+                            height](Result<AlignmentJpegs> made) {
+    if (made) {
+      Item picture;
+      picture.bytes = std::make_shared<const std::string>(std::move(made->files.front()));
+      picture.number = ++requests->pictures;
+      picture.stamp = made->stamp;
+      picture.width = width;
+      picture.height = height;
+      feed->publish(std::move(picture));
+    } else {
+      log_line(LogLevel::Error, "web: " + made.error().message);
+    }
+    requests->are_pending[size] = false;
+  };
+  if (!source_->request(wanted, on_pictures, [] { return true; })) is_pending = false;
 }
 
 }  // namespace orbwatch::app::web

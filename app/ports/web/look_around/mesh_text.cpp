@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "app/ports/web/streams/picture_sizes.h"
+
 namespace orbwatch::app::web {
 namespace {
 
@@ -42,6 +44,7 @@ std::string mesh_text(const optics::BallMesh& mesh, const optics::ViewProjection
   }
   const Json head{{"width", view.width()},
                   {"height", view.height()},
+                  {"widths", widths_of(view.width())},
                   {"facing", list(mesh.facing)},
                   {"centre", {mesh.centre.u, mesh.centre.v}},
                   {"u", list(mesh.u)},

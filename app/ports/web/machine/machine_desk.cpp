@@ -53,8 +53,7 @@ Response MachineDesk::take(const Request& request) const {
   if (path_.source != MachineSource::Http) {
     return error_response(409, wrong_source(path_, MachineSource::Http).message);
   }
-  const auto taken =
-      parse_record<MachineStateBody>(request.body).and_then(state_of).and_then(path_.handler);
+  const auto taken = path_.take(parse_record<MachineStateBody>(request.body).and_then(state_of));
   if (!taken) return error_response(400, taken.error().message);
   Done done;
   return json_response(json_text(json_of(done)));

@@ -51,7 +51,8 @@ void ExportRoutes::file(const ExportNumber& query, const ExchangePtr& exchange) 
 
 Answered<ExportNumber> ExportRoutes::begin(Change<ExportBody>& change) const {
   ExportRequest& request = change.body.request;
-  change.after = request.event + " " + std::string(word_for(kExportFormats, request.format));
+  change.after =
+      event_for_audit(request.event) + " " + std::string(word_for(kExportFormats, request.format));
   if (!exports_) return refuse(404, kNoExports);
   request.user = change.caller.name;
   const auto begun = exports_->begin(request);

@@ -14,11 +14,25 @@
 namespace orbwatch::app::web {
 
 template <class Visitor>
+void visit(Visitor& v, AlarmCause& alarm) {
+  v.required("region", alarm.region, "Name of the region");
+  v.required("signal", alarm.signal, "Name of the signal");
+  v.required("level", alarm.level, "Limit that was reached");
+  v.required("value", alarm.value, "Value of the signal; null: not measured");
+  v.required("unit", alarm.unit, "Its unit");
+}
+
+template <class Visitor>
 void visit(Visitor& v, RecordedEvent& event) {
   v.required("name", event.name, "Name, for requests");
   v.required("trigger", event.trigger,
              "Kind of the trigger: alarm, command, laser_on, layer or line");
   v.required("cause", event.text, "Cause in words");
+  v.required("alarm", event.alarm,
+             "The raised alarm; null: another cause, or an event of an earlier version");
+  v.required("line", event.line,
+             "Name of the digital line that became active; empty: another cause, or an event of an "
+             "earlier version");
   v.required("first", event.first, "Time of the first frame set, UTC; empty: not known");
   v.required("triggered", event.triggered, "Time of the trigger's frame set, UTC");
   v.required("last", event.last, "Time of the last frame set, UTC");

@@ -113,7 +113,7 @@ void RecordingRoutes::regions(const EventQuery& query, const ExchangePtr& exchan
 
 Answered<Done> RecordingRoutes::pin(Change<PinBody>& change) const {
   const auto& [event, is_pinned] = change.body;
-  change.after = event + (is_pinned ? " pinned" : " not pinned");
+  change.after = event_for_audit(event) + (is_pinned ? " pinned" : " not pinned");
   if (!events_) return refuse(404, kNone);
   const auto pinned = events_->set_pinned(event, is_pinned);
   if (!pinned) return refuse(pinned.error());
@@ -121,7 +121,7 @@ Answered<Done> RecordingRoutes::pin(Change<PinBody>& change) const {
 }
 
 Answered<Done> RecordingRoutes::remove(Change<EventQuery>& change) const {
-  change.after = change.body.event + " deleted";
+  change.after = event_for_audit(change.body.event) + " deleted";
   if (!events_) return refuse(404, kNone);
   const auto removed = events_->remove(change.body.event);
   if (!removed) return refuse(removed.error());

@@ -3,9 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/model/plain_text.h"
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/api/route.h"
@@ -15,6 +18,9 @@ namespace orbwatch::app::web {
 
 /// MCAP has no registered media type.
 inline constexpr std::string_view kMcap = "application/octet-stream";
+
+/// Name of an event for the audit, cut to 100 bytes: it is any text of a client. Reentrant.
+inline std::string event_for_audit(std::string_view event) { return plain_text(event, 100); }
 
 /// Serves the recorder's events. Thread-safe.
 class RecordingRoutes {

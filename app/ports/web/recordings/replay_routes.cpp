@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "app/ports/web/recordings/recording_routes.h"
+
 namespace orbwatch::app::web {
 namespace {
 
@@ -42,7 +44,7 @@ Answered<RecordedCourse> ReplayRoutes::signal(const ReplaySignalQuery& query) co
 
 Answered<ReplayNumber> ReplayRoutes::begin(Change<ReplayBody>& change) const {
   const std::uint16_t recipe = change.body.recipe.value_or(selected_());
-  change.after = change.body.event + " recipe " + std::to_string(recipe);
+  change.after = event_for_audit(change.body.event) + " recipe " + std::to_string(recipe);
   if (!replays_) return refuse(404, kNoReplays);
   const auto begun = replays_->begin({change.body.event, recipe, change.caller.name});
   if (!begun) return refuse(begun.error());

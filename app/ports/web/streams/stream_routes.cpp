@@ -8,30 +8,29 @@
 
 namespace orbwatch::app::web {
 
-StreamRoutes::StreamRoutes(std::vector<std::string> names, const std::vector<PublishedView>& views,
-                           std::vector<LiveStream::Source> others, const JpegSettings& jpeg,
+StreamRoutes::StreamRoutes(const std::vector<std::string>& names,
+                           const std::vector<PublishedView>& views,
+                           const std::vector<PictureSource>& others, const JpegSettings& jpeg,
                            int max_streams, const std::shared_ptr<hal::SharedThreads>& threads,
                            std::shared_ptr<Feed> status, const ViewEncoder::OnPicture& on_picture,
                            Access& access, ServerCounts& counts)
-    : names_(std::move(names)),
-      others_(std::move(others)),
-      max_streams_(static_cast<std::uint64_t>(max_streams)),
+    : max_streams_(static_cast<std::uint64_t>(max_streams)),
       status_(std::move(status)),
       access_(access),
       server_counts_(counts),
-      asked_(names_.size()) {
-  views_.reserve(names_.size());
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    widths_.push_back(views[i].spec.width);
+      asked_(names.size()) {
+  views_.reserve(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
     views_.push_back(std::make_unique<ViewEncoder>(jpeg, threads, on_picture));
+    sources_.push_back({names[i], views[i].spec.width, views_.back()->feeds()});
   }
+  sources_.insert(sources_.end(), others.begin(), others.end());
+  for (const PictureSource& source : sources_) names_.push_back(source.name);
 }
 
-Answered<std::shared_ptr<Feed>> StreamRoutes::feed_of(const std::string& view, int width) const {
-  const auto other = std::ranges::find(others_, view, &LiveStream::Source::name);
-  if (other != others_.end()) return other->feed;
-  return index_of("view", view, names_).map([&](std::size_t i) {
-    return views_[i]->feed(size_for(width, widths_[i]));
+Answered<std::shared_ptr<Feed>> StreamRoutes::feed_of(const std::string& name, int width) const {
+  return index_of("view", name, names_).map([&](std::size_t i) {
+    return sources_[i].feeds.of(size_for(width, sources_[i].width));
   });
 }
 

@@ -16,6 +16,7 @@
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/status/web_statistics.h"
 #include "app/ports/web/streams/live_stream.h"
+#include "app/ports/web/streams/picture_feeds.h"
 #include "app/ports/web/streams/stream_counts.h"
 #include "app/ports/web/streams/view_encoder.h"
 #include "app/ports/web/streams/view_query.h"
@@ -44,11 +45,11 @@ void visit(Visitor& v, LiveQuery& query) {
 /// and accept on the pipeline's thread; stop by the owner; everything else on any thread.
 class StreamRoutes {
  public:
-  /// `views` by their index, like `names`. `others` are feeds of pictures in one size that are
-  /// served beside those of views. `max_streams` is the limit of open streams. `status` is the feed
-  /// of the status. `on_picture` as for ViewEncoder. `access` and `counts` outlive the routes.
-  StreamRoutes(std::vector<std::string> names, const std::vector<PublishedView>& views,
-               std::vector<LiveStream::Source> others, const JpegSettings& jpeg, int max_streams,
+  /// `views` by their index, like `names`. `others` are served beside them. `max_streams` is the
+  /// limit of open streams. `status` is the feed of the status. `on_picture` as for ViewEncoder.
+  /// `access` and `counts` outlive the routes.
+  StreamRoutes(const std::vector<std::string>& names, const std::vector<PublishedView>& views,
+               const std::vector<PictureSource>& others, const JpegSettings& jpeg, int max_streams,
                const std::shared_ptr<hal::SharedThreads>& threads, std::shared_ptr<Feed> status,
                const ViewEncoder::OnPicture& on_picture, Access& access, ServerCounts& counts);
 
@@ -67,19 +68,19 @@ class StreamRoutes {
   void count(WebStatistics& statistics) const;
 
  private:
-  /// Feed of a view's pictures for clients that display them in this width, px; 0: full size.
-  Answered<std::shared_ptr<Feed>> feed_of(const std::string& view, int width) const;
+  /// Feed of the pictures of that name for clients that display them in this width, px; 0: full
+  /// size.
+  Answered<std::shared_ptr<Feed>> feed_of(const std::string& name, int width) const;
   Response start(Credentials credentials, std::string_view type, std::shared_ptr<Stream> stream);
 
-  const std::vector<std::string> names_;
-  std::vector<int> widths_;  ///< full widths by view, px
-  const std::vector<LiveStream::Source> others_;
   const std::uint64_t max_streams_;
   const std::shared_ptr<Feed> status_;
   Access& access_;
   ServerCounts& server_counts_;
   StreamCounts counts_;
   std::vector<std::unique_ptr<ViewEncoder>> views_;  ///< encoders by View::index
+  std::vector<PictureSource> sources_;               ///< pictures of views and others
+  std::vector<std::string> names_;                   ///< names of sources_
   /// Flags by view: the next picture has readers; used on the pipeline's thread only.
   std::vector<bool> asked_;
 };

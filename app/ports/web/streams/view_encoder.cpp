@@ -12,29 +12,24 @@ namespace {
 /// Limit of the quality in the smaller sizes, whose clients ask for few bytes.
 constexpr int kReducedQuality = 75;
 
-}  // namespace
-
-std::array<ViewEncoder::Size, kQuarters.size()> ViewEncoder::make_sizes(const JpegSettings& jpeg) {
+std::array<JpegQuality, kQuarters.size()> qualities(const JpegSettings& jpeg) {
   JpegSettings reduced = jpeg;
   reduced.quality = std::min(reduced.quality, kReducedQuality);
-  return {Size{JpegQuality(jpeg)}, Size{JpegQuality(reduced)}, Size{JpegQuality(reduced)},
-          Size{JpegQuality(reduced)}};
+  return {JpegQuality(jpeg), JpegQuality(reduced), JpegQuality(reduced), JpegQuality(reduced)};
 }
+
+}  // namespace
 
 ViewEncoder::ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads,
                          OnPicture on_picture)
     : period_(hal::period_of(jpeg.rate)),
-      sizes_(make_sizes(jpeg)),
+      qualities_(qualities(jpeg)),
       on_picture_(std::move(on_picture)),
       work_(std::move(threads), [this] { encode(); }) {}
 
-bool ViewEncoder::has_readers() const {
-  return std::ranges::any_of(sizes_, [](const Size& size) { return size.feed->is_wanted(); });
-}
-
 /// Returns whether a picture is due, with a tolerance of a quarter period for jitter.
 bool ViewEncoder::wants(hal::TimePoint stamp, bool is_wanted) const {
-  return (is_wanted || has_readers()) && stamp >= due_ - period_ / 4;
+  return (is_wanted || feeds_.are_wanted()) && stamp >= due_ - period_ / 4;
 }
 
 void ViewEncoder::accept(const ViewPtr& view) {
@@ -53,10 +48,7 @@ Result<Bytes> ViewEncoder::compressed(const Picture& picture, std::size_t size) 
   const Picture sized = size == kFullSize ? picture
                                           : scaler_.scaled(picture, side_in(size, picture.width),
                                                            side_in(size, picture.height));
-  JpegQuality& quality = sizes_[size].quality;
-  auto jpeg = encoder_.encode(sized, quality.current());
-  while (jpeg && quality.adapt(jpeg->size())) jpeg = encoder_.encode(sized, quality.current());
-  return jpeg.map([](std::span<std::uint8_t> bytes) {
+  return encoder_.encode(sized, qualities_[size]).map([](std::span<std::uint8_t> bytes) {
     return Bytes(std::make_shared<const std::string>(bytes.begin(), bytes.end()));
   });
 }
@@ -67,8 +59,8 @@ void ViewEncoder::encode() {
   const View& view = **taken;
   const std::uint64_t number = ++number_;
   on_picture_(*taken, number);
-  for (std::size_t size = 0; size < sizes_.size(); ++size) {
-    Feed& feed = *sizes_[size].feed;
+  for (std::size_t size = 0; size < kQuarters.size(); ++size) {
+    Feed& feed = *feeds_.of(size);
     if (!feed.is_wanted()) continue;
     auto jpeg = compressed(view.picture, size);
     if (!jpeg) {

@@ -12,7 +12,7 @@
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/pictures/picture_scaler.h"
-#include "app/ports/web/streams/feed.h"
+#include "app/ports/web/streams/picture_feeds.h"
 #include "app/ports/web/streams/picture_sizes.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/shared_threads.h"
@@ -38,8 +38,7 @@ class ViewEncoder {
   /// Waits for the picture in progress and drops the waiting one.
   void stop();
 
-  /// Feed of the pictures of a size, a place in kQuarters.
-  const std::shared_ptr<Feed>& feed(std::size_t size) const { return sizes_[size].feed; }
+  const PictureFeeds& feeds() const { return feeds_; }
   std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
   /// Number of pictures replaced before they were compressed.
   std::uint64_t replaced() const { return mailbox_.drops(); }
@@ -47,20 +46,14 @@ class ViewEncoder {
   std::uint64_t compressed_pictures() const { return compressed_; }
 
  private:
-  struct Size {
-    JpegQuality quality;
-    std::shared_ptr<Feed> feed = std::make_shared<Feed>();
-  };
-  static std::array<Size, kQuarters.size()> make_sizes(const JpegSettings& jpeg);
-
-  bool has_readers() const;
   void encode();
   Result<Bytes> compressed(const Picture& picture, std::size_t size);
 
   const hal::Clock::duration period_;  ///< shortest interval of pictures; 0: no limit
   hal::TimePoint due_;  ///< time of the next picture; used by the accepting thread only
   hal::Mailbox<ViewPtr> mailbox_;
-  std::array<Size, kQuarters.size()> sizes_;
+  const PictureFeeds feeds_;
+  std::array<JpegQuality, kQuarters.size()> qualities_;  ///< by size
   PictureScaler scaler_;
   JpegEncoder encoder_;
   std::uint64_t number_ = 0;  ///< number of the newest picture; used by encode() only

@@ -29,7 +29,8 @@ void visit(Visitor& v, PictureQuery& query) {
   visit(v, static_cast<ViewQuery&>(query));
   v.optional("width", query.width, kShownWidths,
              "Width at which the pictures are displayed: the smallest size of the view that is at "
-             "least as wide is sent, see widths of /api/v1/views; 0: the full size",
+             "least as wide is sent, see widths of /api/v1/views and /api/v1/sphere; 0: the full "
+             "size",
              "px");
 }
 

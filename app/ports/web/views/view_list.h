@@ -12,6 +12,7 @@
 #include "app/ports/web/views/aim.h"
 #include "app/ports/web/views/view_records.h"
 #include "app/ports/web/web_context.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::app::web {
 
@@ -32,7 +33,7 @@ class ViewList {
  private:
   const std::vector<std::string> names_;
   const std::vector<PublishedView> views_;
-  mutable std::mutex mutex_;
+  mutable hal::PriorityMutex mutex_;
   /// Aims of the newest pictures, by view; guarded by mutex_.
   std::vector<std::optional<Aim>> aims_;
 };

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "app/machine/machine_follower.h"
 #include "app/ports/modbus/map/layout.h"
 #include "tests/app/ports/modbus/clients.h"
 
@@ -72,14 +73,15 @@ class Block {
 
 class MachineRegisters : public testing::Test {
  protected:
-  void start(MachineSource source = MachineSource::Modbus) {
-    sink_.emplace(loopback(), tests::accept_all, std::make_shared<CommandRecord>(),
-                  machine_.path(source));
+  void start(MachineSource source = MachineSource::Modbus) { start(machine_.path(source)); }
+  void start(const MachinePath& path) {
+    sink_.emplace(loopback(), tests::accept_all, std::make_shared<CommandRecord>(), path);
     ASSERT_TRUE(sink_->start());
     plc_.emplace(sink_->port());
   }
 
   TakenStates machine_;
+  machine::MachineFollower follower_{{.source = MachineSource::Modbus}};
   std::optional<ModbusSink> sink_;
   std::optional<Plc> plc_;
 };
@@ -128,11 +130,16 @@ TEST_F(MachineRegisters, APartOfTheBlockIsRefused) {
   Words longer(whole);
   longer.insert(longer.begin(), 2, 0);
   EXPECT_EQ(plc_->write(begin - 2, longer), kNotServed);
+  for (const std::size_t more : {1U, 2U, 48U}) {
+    longer.assign(whole.begin(), whole.end());
+    longer.insert(longer.end(), more, 0);
+    EXPECT_EQ(plc_->write(begin, longer), kNotServed) << more << " registers beyond the block";
+  }
   EXPECT_TRUE(machine_.states().empty());
 }
 
-TEST_F(MachineRegisters, ARefusedStateChangesNoRegister) {
-  start();
+TEST_F(MachineRegisters, ARefusedStateIsCountedAndChangesNoRegister) {
+  start(follower_.path());
   ASSERT_EQ(plc_->write(Block::begin(), Block().put("sequence", 1).put("layer", 4).words()), 0);
   const auto refused = [&](const Block& block) {
     EXPECT_EQ(plc_->write(Block::begin(), block.words()), kOutside);
@@ -143,7 +150,9 @@ TEST_F(MachineRegisters, ARefusedStateChangesNoRegister) {
   refused(Block().put("sequence", 2).put("clock_microseconds", 1'000'000));
   refused(Block().put("sequence", 2).part("\xff\xfe"));
   refused(Block().put("sequence", 2).part("line\nbreak"));
-  EXPECT_EQ(machine_.states().size(), 1U);
+  const MachineStatus& machine = follower_.keep(hal::Clock::now());
+  EXPECT_EQ(machine.states, 1U);
+  EXPECT_EQ(machine.refused, 6U);
   ASSERT_EQ(plc_->read_holding(address_of("state_sequence"), 2), 0);
   EXPECT_EQ(plc_->u32(0), 1U);
 }
@@ -151,6 +160,7 @@ TEST_F(MachineRegisters, ARefusedStateChangesNoRegister) {
 TEST_F(MachineRegisters, AnotherSourceIsNotOverruled) {
   start(MachineSource::Dds);
   EXPECT_EQ(plc_->write(Block::begin(), Block().put("sequence", 1).words()), kNotServed);
+  EXPECT_EQ(plc_->write(Block::begin(), Block().put("laser_on", 2).words()), kNotServed);
   EXPECT_TRUE(machine_.states().empty());
 }
 

@@ -303,6 +303,8 @@ TEST(ModbusSink, NamesTheSettingThatCannotBe) {
   ModbusSettings settings = loopback();
   settings.address = "machine7";
   EXPECT_THAT(start_error(settings), HasSubstr("'machine7' is not a numeric IP address"));
+  settings.address = "fe80::1%none0";  // of an interface that is not plugged in
+  EXPECT_THAT(start_error(settings), HasSubstr("'fe80::1%none0'"));
   settings.address = "192.0.2.1";  // reserved for documentation
   EXPECT_THAT(start_error(settings), HasSubstr("192.0.2.1 port 0"));
   settings = loopback();

@@ -140,6 +140,26 @@ TEST_F(PlcHandshakeTest, ARefusedStatementIsNotTakenBack) {
   EXPECT_THAT(said_, ElementsAre(1));
 }
 
+TEST_F(PlcHandshakeTest, ItsCommandsWaitForTheAuditAndTheFallBackIsNotItsCommand) {
+  beat();
+  answer_ = CommandResult::NotPossible;
+  say_active(1);
+  answer_ = CommandResult::Done;
+  say_active(1);
+  advance(2 * kTimeout);
+  EXPECT_THAT(said_, ElementsAre(1, 1, 0));
+  for (const CommandResult result : {CommandResult::NotPossible, CommandResult::Done}) {
+    const auto waiting = record_.take_unaudited();
+    ASSERT_TRUE(waiting);
+    EXPECT_EQ(waiting->id.client, kPlcClient);
+    EXPECT_EQ(waiting->command.code, CommandCode::SetProcessActive);
+    EXPECT_EQ(waiting->command.arguments[0], 1);
+    EXPECT_EQ(waiting->command.giver.name(), "over Modbus");
+    EXPECT_EQ(waiting->result, result);
+  }
+  EXPECT_FALSE(record_.take_unaudited());
+}
+
 TEST_F(PlcHandshakeTest, AsksToBeCalledWhenTheTimeIsOver) {
   beat();
   say_active(1);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <string_view>
 
 #include "app/ports/modbus/modbus_sink.h"
 #include "tests/app/ports/modbus/clients.h"
@@ -24,31 +27,48 @@ const InterfaceTable& named(const std::vector<InterfaceTable>& tables, const std
 }
 
 /// Maps the column `key` to the column `value`.
-std::map<std::string, double> numbers(const InterfaceTable& table, const std::string& key,
-                                      const std::string& value) {
+template <class Value>
+std::map<std::string, Value> column(const InterfaceTable& table, const std::string& key,
+                                    const std::string& value) {
   const auto place = [&table](const std::string& column) {
     return static_cast<std::size_t>(std::ranges::find(table.columns, column) -
                                     table.columns.begin());
   };
-  std::map<std::string, double> all;
+  std::map<std::string, Value> all;
   for (const auto& row : table.rows) {
     EXPECT_EQ(row.size(), table.columns.size());
-    all[std::get<std::string>(row[place(key)])] = std::get<double>(row[place(value)]);
+    all[std::get<std::string>(row[place(key)])] = std::get<Value>(row[place(value)]);
   }
   return all;
+}
+
+/// Adds an alarm on the width of a hot spot, in thousandths of a millimetre over Modbus.
+void add_alarm(Status& status, double width) {
+  const auto signal = std::ranges::find(signals::kSignals, std::string_view("hot_spot_width"),
+                                        &signals::SignalInfo::name);
+  AlarmStatus& alarm = status.alarms[status.alarm_count++];
+  alarm.signal = static_cast<SignalNumber>(signal - signals::kSignals.begin());
+  alarm.value = width;
 }
 
 TEST(ShownTables, HaveTheValuesInTheirUnits) {
   ModbusSink sink(loopback(), accept_all);
   EXPECT_TRUE(sink.tables().empty()) << "it does not serve";
   ASSERT_TRUE(sink.start());
-  sink.accept(tests::example_status());
+  Status status = tests::example_status();
+  add_alarm(status, 3.2);
+  add_alarm(status, signals::kNotValid);
+  sink.accept(status);
   const auto tables = sink.tables();
-  const auto values = numbers(named(tables, "registers"), "name", "value");
+  const auto values = column<double>(named(tables, "registers"), "name", "value");
+  const auto units = column<std::string>(named(tables, "registers"), "name", "unit");
   EXPECT_EQ(values.at("system_configuration_checksum"), 0x89abcdefU);
   EXPECT_NEAR(values.at("region_0_hot_spot_yaw"), -123.46, 1e-9);
   EXPECT_NEAR(values.at("region_0_hot_spot_peak_temperature"), -20.0, 1e-9);
   EXPECT_TRUE(std::isnan(values.at("region_0_hot_spot_mean_temperature")));
+  EXPECT_NEAR(values.at("alarm_1_value"), 3.2, 1e-9);
+  EXPECT_EQ(units.at("alarm_1_value"), "mm") << "the unit of its signal";
+  EXPECT_TRUE(std::isnan(values.at("alarm_2_value")));
   const modbus::RegisterMap map;
   std::size_t mapped = 0;
   for (const modbus::Row& row : map.rows()) mapped += row.read && !is_mirror(row) ? 1 : 0;
@@ -62,7 +82,7 @@ TEST(ShownTables, HaveTheClientsThatAreConnected) {
   ASSERT_TRUE(sink.start());
   const auto requests = [&sink] {
     const auto tables = sink.tables();
-    return numbers(named(tables, "clients"), "address", "requests");
+    return column<double>(named(tables, "clients"), "address", "requests");
   };
   const auto metric = [&sink](std::string_view name) {
     const auto metrics = sink.metrics();

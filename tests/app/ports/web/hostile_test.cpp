@@ -20,6 +20,8 @@ class Hostile : public Served {
   static WebSettings hurried() {
     WebSettings settings;
     settings.request_timeout = std::chrono::milliseconds(400);
+    // This thread is the pipeline, and may be late.
+    settings.status_timeout = std::chrono::hours(1);
     settings.max_connections = 400;
     settings.max_connections_per_address = 300;
     settings.max_streams = 200;

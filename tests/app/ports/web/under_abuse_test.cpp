@@ -40,7 +40,8 @@ class WebUnderAbuse : public Served, public testing::WithParamInterface<orbwatch
 
 TEST_P(WebUnderAbuse, OthersAreAnsweredAndThePipelineDoesNotWait) {
   WebSettings settings;
-  settings.request_timeout = std::chrono::milliseconds(400);
+  // Longer than a busy machine needs for an answer, shorter than the rounds.
+  settings.request_timeout = std::chrono::seconds(2);
   settings.max_connections = 400;
   settings.max_connections_per_address = 300;
   settings.max_streams = 200;
@@ -51,7 +52,7 @@ TEST_P(WebUnderAbuse, OthersAreAnsweredAndThePipelineDoesNotWait) {
   SmallPictures pictures(*sink);
   {
     orbwatch::tests::Abused abused(GetParam(), port());
-    for (int round = 0; round < 10; ++round) {
+    for (int round = 0; round < 25; ++round) {
       pictures.hand_over(3);
       EXPECT_EQ(get(port(), "/healthz").status, 200);
       EXPECT_EQ(get(port(), "/api/v1/status", header).status, 200);
@@ -62,7 +63,7 @@ TEST_P(WebUnderAbuse, OthersAreAnsweredAndThePipelineDoesNotWait) {
   // Another thread may be preempted while it briefly holds a lock; under sanitizers threads also
   // contend for memory.
   if (!orbwatch::tests::kIsSanitized) {
-    EXPECT_LE(pictures.waits(), pictures.accepted() / 20);
+    EXPECT_LE(pictures.waits(), pictures.accepted() / 20 + 2);
   }
   EXPECT_TRUE(eventually([&] { return sink->statistics().connections == 0; }));
 }

@@ -36,18 +36,18 @@ AuditEntries merge(AuditEntries a, AuditEntries b) {
   return merged;
 }
 
-/// The newest entries, with a guaranteed share for each user; in their order.
-AuditEntries fair(AuditEntries all, std::size_t most) {
-  constexpr std::size_t kUsers = 10;
+/// The newest entries, with a guaranteed share for each value of `member`; in their order.
+AuditEntries fair(AuditEntries all, std::size_t most, const std::string& member) {
+  constexpr std::size_t kShares = 10;
   if (all.size() <= most) return all;
   std::vector<bool> is_shown(all.size());
   std::map<std::string, std::size_t> shown_of;
   std::size_t shown = 0;
-  for (const std::size_t share : {std::max<std::size_t>(1, most / kUsers), most}) {
+  for (const std::size_t share : {std::max<std::size_t>(1, most / kShares), most}) {
     for (std::size_t i = all.size(); i-- > 0 && shown < most;) {
-      if (is_shown[i] || shown_of[all[i].value("who", "")] >= share) continue;
+      if (is_shown[i] || shown_of[all[i].value(member, "")] >= share) continue;
       is_shown[i] = true;
-      ++shown_of[all[i].value("who", "")];
+      ++shown_of[all[i].value(member, "")];
       ++shown;
     }
   }
@@ -61,7 +61,9 @@ AuditEntries fair(AuditEntries all, std::size_t most) {
 }  // namespace
 
 Audit::Audit(const std::filesystem::path& state_folder)
-    : file_(state_folder, "audit"), refused_file_(state_folder, "audit-refused") {}
+    : file_(state_folder, "audit"),
+      commands_file_(state_folder, "audit-commands"),
+      refused_file_(state_folder, "audit-refused") {}
 
 void Audit::note(const Entry& entry, const std::string& subject) {
   {
@@ -72,53 +74,64 @@ void Audit::note(const Entry& entry, const std::string& subject) {
   file_.append({entry});
 }
 
+void Audit::note_command(const Entry& entry, const std::string& interface) {
+  const std::string kind = kind_of({interface, entry.what, entry.result});
+  const std::lock_guard lock(mutex_);
+  commands_.note(kind, entry);
+}
+
 std::uint64_t Audit::note_refused(const Entry& entry) {
   const std::string kind = kind_of({address_key(entry.from), entry.what, entry.after});
   const std::lock_guard lock(mutex_);
-  const auto counted = refused_.count(kind, entry);
-  if (counted.is_noted) waiting_.push_back(entry);
+  return refused_.note(kind, entry);
+}
+
+std::uint64_t Audit::Deferred::note(const std::string& kind, const Entry& entry) {
+  const auto counted = repetitions.count(kind, entry);
+  if (counted.is_noted) waiting.push_back(entry);
   return counted.count;
 }
 
+std::vector<Audit::Entry> Audit::Deferred::take(const TakeCounts& take_counts) {
+  std::vector<Entry> taken = std::exchange(waiting, {});
+  std::ranges::move(take_counts(repetitions), std::back_inserter(taken));
+  // Counts are in the order of their kinds.
+  std::ranges::stable_sort(taken, {}, &Entry::time);
+  return taken;
+}
+
 void Audit::write_due(Repetitions::Time now) {
-  std::vector<Entry> counts, refused_counts;
-  {
-    const std::lock_guard lock(mutex_);
-    counts = repetitions_.take_due(now);
-    refused_counts = refused_.take_due(now);
-  }
-  write_waiting(std::move(counts), std::move(refused_counts));
+  write([now](Repetitions& repetitions) { return repetitions.take_due(now); });
 }
 
 void Audit::write_all() {
-  std::vector<Entry> counts, refused_counts;
-  {
-    const std::lock_guard lock(mutex_);
-    counts = repetitions_.take_all();
-    refused_counts = refused_.take_all();
-  }
-  write_waiting(std::move(counts), std::move(refused_counts));
+  write([](Repetitions& repetitions) { return repetitions.take_all(); });
 }
 
-void Audit::write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_counts) {
-  std::vector<Entry> refused;
+void Audit::write(const TakeCounts& take_counts) {
+  const std::lock_guard writing(writing_);
+  std::vector<Entry> counts, commands, refused;
   {
     const std::lock_guard lock(mutex_);
-    refused = std::exchange(waiting_, {});
+    counts = take_counts(repetitions_);
+    commands = commands_.take(take_counts);
+    refused = refused_.take(take_counts);
   }
-  std::ranges::move(refused_counts, std::back_inserter(refused));
-  // The entries are in the order of their kinds.
-  std::ranges::stable_sort(refused, {}, &Entry::time);
   std::ranges::stable_sort(counts, {}, &Entry::time);
   file_.append(counts);
+  commands_file_.append(commands);
   refused_file_.append(refused);
 }
 
 std::vector<Json> Audit::newest(std::size_t most) const {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   AuditEntries refused = refused_file_.newest(std::min(most, kMostRefusedShown));
-  AuditEntries entries =
-      fair(file_.newest(std::numeric_limits<std::size_t>::max()), most - refused.size());
-  return merge(std::move(entries), std::move(refused));
+  std::size_t room = most - refused.size();
+  AuditEntries commands =
+      fair(commands_file_.newest(kAll), std::min(room, kMostCommandsShown), "what");
+  room -= commands.size();
+  AuditEntries entries = fair(file_.newest(kAll), room, "who");
+  return merge(merge(std::move(entries), std::move(commands)), std::move(refused));
 }
 
 }  // namespace orbwatch::app::web

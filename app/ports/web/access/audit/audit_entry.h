@@ -12,7 +12,7 @@ namespace orbwatch::app::web {
 struct AuditEntry {
   std::chrono::system_clock::time_point time{};
   std::string who;   ///< name of a user or a token; empty: not logged in
-  std::string from;  ///< numeric address
+  std::string from;  ///< numeric address, or the interface without addresses
   std::string what;  ///< a command's name, else the route's
   std::string before{};
   std::string after{};
@@ -24,7 +24,9 @@ void visit(Visitor& v, AuditEntry& entry) {
   std::string time = utc_text(entry.time).value_or("");
   v.required("time", time, "UTC in ISO 8601");
   v.required("who", entry.who, "Name of a user or a program; empty: not logged in");
-  v.required("from", entry.from, "Numeric address");
+  v.required("from", entry.from,
+             "Numeric address; of commands that were not given over HTTP the interface: over "
+             "Modbus, or over DDS and the client's number");
   v.required("what", entry.what, "Name of a command, else last part of the path");
   v.required("before", entry.before, "Values before the change");
   v.required("after", entry.after, "Values after the change");

@@ -12,6 +12,7 @@
 #include "app/log.h"
 #include "app/ports/web/api/record.h"
 #include "app/state/private_file.h"
+#include "hal/regular_file.h"
 #include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::web {
@@ -27,8 +28,7 @@ bool append_to(const std::filesystem::path& file, std::string lines) {
   char last = '\n';
   if (about.st_size > 0 && ::pread(opened.get(), &last, 1, about.st_size - 1) != 1) return false;
   if (last != '\n') lines.insert(0, 1, '\n');
-  return ::write(opened.get(), lines.data(), lines.size()) == static_cast<ssize_t>(lines.size()) &&
-         ::fdatasync(opened.get()) == 0;
+  return hal::write_all(opened, lines) && ::fdatasync(opened.get()) == 0;
 }
 
 void add_lines(const std::filesystem::path& file, std::vector<Json>& entries) {

@@ -2,6 +2,7 @@
 #include "app/ports/web/access/login/secret.h"
 
 #include <sodium.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
@@ -32,10 +33,19 @@ std::size_t characters(std::string_view text) {
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// A hash that matches no password, for unknown names, so that they take as long as known ones.
-const std::string& hash_of_nobody() {
-  static const std::string hash = hash_password(random_token()).value_or("");
-  return hash;
+/// A hash with the parameters of hash_password() that no known password has, for unknown names, so
+/// that they take as long as known ones. A constant, because hashing fails without free memory.
+constexpr const char* kHashOfNobody =
+    "$argon2id$v=19$m=65536,t=2,p=1$AAAAAAAAAAAAAAAAAAAAAA"
+    "$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
+static_assert(crypto_pwhash_OPSLIMIT_INTERACTIVE == 2);
+static_assert(crypto_pwhash_MEMLIMIT_INTERACTIVE == 65536U * 1024U);
+
+/// Allocates as libsodium does for a hash.
+bool has_memory_for_hash() {
+  void* const memory = ::mmap(nullptr, crypto_pwhash_MEMLIMIT_INTERACTIVE, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return memory != MAP_FAILED && ::munmap(memory, crypto_pwhash_MEMLIMIT_INTERACTIVE) == 0;
 }
 
 }  // namespace
@@ -62,11 +72,14 @@ Result<std::string> hash_password(std::string_view password) {
   return std::string(hash.data());
 }
 
-bool is_password(const std::string& hash, std::string_view password) {
+/// libsodium 1.0.18 has one result for another password and for want of memory.
+PasswordMatch match_password(const std::string& hash, std::string_view password) {
   need_library();
-  const std::string& compared = hash.empty() ? hash_of_nobody() : hash;
-  return ::crypto_pwhash_str_verify(compared.c_str(), password.data(), password.size()) == 0 &&
-         !hash.empty();
+  const char* compared = hash.empty() ? kHashOfNobody : hash.c_str();
+  if (::crypto_pwhash_str_verify(compared, password.data(), password.size()) == 0) {
+    return hash.empty() ? PasswordMatch::Wrong : PasswordMatch::Right;
+  }
+  return has_memory_for_hash() ? PasswordMatch::Wrong : PasswordMatch::OutOfMemory;
 }
 
 std::string random_token() {

@@ -20,8 +20,12 @@ Result<> check_password(std::string_view password);
 /// of memory.
 Result<std::string> hash_password(std::string_view password);
 
-/// Returns whether `hash` is the hash_password() of `password`; takes the same time for any `hash`.
-bool is_password(const std::string& hash, std::string_view password);
+/// Result of a comparison of a password. OutOfMemory: it could not be compared.
+enum class PasswordMatch { Right, Wrong, OutOfMemory };
+
+/// Compares `password` with a hash_password(), which takes as much time and memory. An empty
+/// `hash`, that of an unknown user, takes the same time and matches none.
+PasswordMatch match_password(const std::string& hash, std::string_view password);
 
 /// 256 random bits as letters, digits, - and _.
 std::string random_token();

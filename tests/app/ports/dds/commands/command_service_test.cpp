@@ -5,174 +5,30 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
-#include <filesystem>
-#include <mutex>
-#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "app/cli/dds/command_client.h"
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/topics/topic_names.h"
 #include "app/ports/dds/topics/topic_reader.h"
+#include "tests/app/ports/dds/commands/command_case.h"
 #include "tests/app/ports/dds/figures.h"
 #include "tests/app/ports/dds/foreign_writer.h"
 #include "tests/app/ports/dds/topic_reader.h"
-#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::dds {
 namespace {
 
+using command_case::command_settings;
+using command_case::Controller;
+using command_case::Machine;
+using command_case::send;
 using testing::HasSubstr;
 using tests::DdsNetwork;
 using tests::eventually;
-
-/// Handler of the sink's commands, which refuses everything except view 0.
-class Machine {
- public:
-  CommandHandler handler() {
-    return [this](const Command& command) {
-      const std::lock_guard lock(mutex_);
-      commands_.push_back(command);
-      return command.code == CommandCode::SelectView && command.integer(0) > 0
-                 ? CommandResult::ArgumentOutOfRange
-                 : CommandResult::Done;
-    };
-  }
-  std::vector<Command> commands() const {
-    const std::lock_guard lock(mutex_);
-    return commands_;
-  }
-  std::size_t count() const { return commands().size(); }
-
- private:
-  mutable std::mutex mutex_;
-  std::vector<Command> commands_;
-};
-
-/// A controller that sends any message and reads all results.
-class Controller {
- public:
-  Controller()
-      : requests_(DdsNetwork::kReaderDomain, orbwatch_msgs_msg_dds__Command__desc,
-                  command_topic("orbwatch"), command_qos()),
-        results_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic("orbwatch"),
-                 command_qos()) {}
-
-  bool connect() const {
-    return requests_.wait_for_reader() && eventually([this] {
-             dds_subscription_matched_status_t matched{};
-             return dds_get_subscription_matched_status(results_.get(), &matched) ==
-                        DDS_RETCODE_OK &&
-                    matched.current_count > 0;
-           });
-  }
-
-  void send(RequestId id, std::string name, std::vector<double> arguments) const {
-    const auto count = static_cast<std::uint32_t>(arguments.size());
-    const CommandMessage message{
-        id.client, id.number, name.data(), {count, count, arguments.data(), false}};
-    requests_.write(&message);
-  }
-
-  /// Sends until an answer to this request arrives; the first one may be written before the sink
-  /// has matched this reader.
-  CommandAnswer ask(RequestId id, const std::string& name,
-                    const std::vector<double>& arguments) const {
-    CommandAnswer answer{CommandResult::Busy, "no answer"};
-    EXPECT_TRUE(eventually([&] {
-      send(id, name, arguments);
-      bool answered = false;
-      results_.take([&](const CommandResultMessage& message) {
-        if (RequestId{message.client, message.number} != id) return;
-        answer = {static_cast<CommandResult>(message.result), message.text};
-        answered = true;
-      });
-      return answered;
-    }));
-    return answer;
-  }
-
-  const tests::ForeignWriter& requests() const { return requests_; }
-
- private:
-  tests::ForeignWriter requests_;
-  tests::TopicReader<CommandResultMessage> results_;
-};
-
-DdsSettings command_settings() { return {.domain = DdsNetwork::kSinkDomain, .commands = true}; }
-
-/// A sink whose record of commands is in a folder.
-class RecordedCommands : public testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(network_.valid()); }
-
-  /// Stops the previous sink and starts one; the controller has none of its answers.
-  void start(const std::filesystem::path& folder, CommandHandler handler) {
-    sink_.reset();
-    controller_.emplace();
-    sink_.emplace(command_settings(), StatusNames{{}, {"front"}, {}}, std::move(handler),
-                  network_addresses, std::make_shared<CommandRecord>(folder));
-    const auto started = sink_->start();
-    ASSERT_TRUE(started) << started.error().message;
-    ASSERT_TRUE(controller_->connect());
-  }
-
-  DdsNetwork network_;
-  const orbwatch::tests::TemporaryFolder folder_;
-  Machine machine_;
-  std::optional<Controller> controller_;
-  std::optional<DdsSink> sink_;
-};
-
-TEST_F(RecordedCommands, ARestartRepeatsNoRequest) {
-  start(folder_.path(), machine_.handler());
-  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::Done);
-  start(folder_.path(), machine_.handler());
-  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}),
-            (CommandAnswer{CommandResult::Done, "done"}));
-  EXPECT_EQ(machine_.count(), 1U);
-  EXPECT_EQ(controller_->ask({7, 4}, "select_view", {5}).result, CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(machine_.count(), 2U);
-}
-
-TEST_F(RecordedCommands, OneThatWasCutOffIsInterrupted) {
-  const orbwatch::tests::TemporaryFolder then;
-  start(folder_.path(), [&](const Command&) {
-    // Copies the disk's content as after a power failure now.
-    std::filesystem::copy(folder_.path(), then.path(), std::filesystem::copy_options::recursive);
-    return CommandResult::Done;
-  });
-  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::Done);
-  start(then.path(), machine_.handler());
-  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::Interrupted);
-  EXPECT_EQ(machine_.count(), 0U);
-}
-
-TEST_F(RecordedCommands, WithoutAFolderTheFirstOfAClientIsNotCarriedOut) {
-  start("/proc/orbwatch", machine_.handler());
-  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::NotCarriedOut);
-  EXPECT_EQ(machine_.count(), 0U);
-  EXPECT_EQ(controller_->ask({7, 4}, "select_view", {0}).result, CommandResult::Done);
-  EXPECT_EQ(machine_.count(), 1U);
-}
-
-Result<CommandAnswer> send(const Command& command, std::chrono::milliseconds timeout) {
-  const std::atomic<bool> cancelled{false};
-  return cli::send_command({.domain = DdsNetwork::kReaderDomain, .timeout = timeout}, command,
-                           cancelled);
-}
-
-TEST_F(RecordedCommands, TheCommandLineSendsAgainWhatWasNotCarriedOut) {
-  start("/proc/orbwatch", machine_.handler());
-  // The count is higher if the request was repeated before the answer arrived.
-  EXPECT_TRUE(eventually([&] {
-    const auto answer = send({CommandCode::Start, {}}, std::chrono::minutes(1));
-    return answer && answer->result == CommandResult::Done;
-  }));
-  EXPECT_EQ(machine_.count(), 1U);
-}
 
 class CommandServiceTest : public testing::Test {
  protected:
@@ -354,6 +210,82 @@ TEST_F(CommandServiceTest, CountersAreInTheState) {
     });
     return seen.done == 1 && seen.refused == 1 && seen == counts();
   }));
+}
+
+/// Handler of commands that takes until end(), like a slow disk.
+class SlowMachine {
+ public:
+  CommandHandler handler() {
+    return [this](const Command&) {
+      has_begun_ = true;
+      has_ended_.wait(false);
+      return CommandResult::Done;
+    };
+  }
+  bool has_begun() const { return has_begun_; }
+  void end() {
+    has_ended_ = true;
+    has_ended_.notify_all();
+  }
+
+ private:
+  std::atomic<bool> has_begun_{false}, has_ended_{false};
+};
+
+class SlowCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(network_.valid());
+    ASSERT_TRUE(sink_.start());
+  }
+  ~SlowCommand() override { machine_.end(); }
+
+  void measure(std::uint64_t frame_set, std::uint64_t result) {
+    Status status;
+    status.frame_set = frame_set;
+    status.result = result;
+    status.stamp = hal::Clock::now();
+    sink_.accept(status);
+  }
+
+  DdsNetwork network_;
+  SlowMachine machine_;
+  DdsSink sink_{command_settings(), {{}, {"front"}, {}}, machine_.handler()};
+};
+
+dds::Qos every_state() {
+  dds::Qos qos = state_qos();
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 100);
+  return qos;
+}
+
+TEST_F(SlowCommand, DelaysNoStateAndLeavesEachResultItsFrameSet) {
+  const Controller controller;
+  ASSERT_TRUE(controller.connect());
+  const tests::TopicReader<ProcessStateMessage> states(
+      orbwatch_msgs_msg_dds__ProcessState__desc, process_state_topic("orbwatch"), every_state());
+  bool has_states = false;
+  ASSERT_TRUE(eventually([&] {
+    controller.send({7, 1}, "trigger", {});
+    measure(10, 0);
+    has_states |= states.take([](const auto&) {});
+    return has_states && machine_.has_begun();
+  }));
+  for (const std::uint64_t frame_set : {11, 12, 13}) measure(frame_set, frame_set == 11 ? 1 : 2);
+  measure(14, 2);
+  using Seen = std::pair<std::uint64_t, std::uint64_t>;  // frame set and result
+  std::vector<Seen> changes{{0, 0}};
+  std::uint64_t frame_set = 0;
+  ASSERT_TRUE(eventually([&] {
+    states.take([&](const ProcessStateMessage& state) {
+      frame_set = state.frame_set;
+      if (state.result != changes.back().second) changes.emplace_back(frame_set, state.result);
+    });
+    return frame_set == 14;
+  })) << "while the command is executed";
+  EXPECT_THAT(changes, testing::ElementsAre(Seen{0, 0}, Seen{11, 1}, Seen{12, 2}));
+  machine_.end();
+  EXPECT_EQ(controller.ask({7, 1}, "trigger", {}).result, CommandResult::Done);
 }
 
 /// Expects that this sink has no reader for commands.

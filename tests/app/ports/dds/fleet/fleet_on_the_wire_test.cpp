@@ -164,7 +164,7 @@ TEST_F(FleetOnTheWire, ThumbnailsAreMadeOnlyForThoseWhoLook) {
   const auto written = [&] { return of_topic(there.sink, std::string(kThumbnailTopic)).written; };
   EXPECT_EQ(written(), 0U);
   EXPECT_FALSE(there.sink.needs(kFront, hal::Clock::now()).jpeg);
-  here_.fleet->look(hal::Clock::now());
+  here_.fleet->note_viewer(hal::Clock::now());
   ASSERT_TRUE(live_until([&] { return here_.fleet->picture(id) != nullptr; }, &there));
   const auto jpeg = *here_.fleet->picture(id);
   EXPECT_LT(jpeg.size(), 8000U);
@@ -208,7 +208,7 @@ TEST_F(FleetOnTheWire, WhatIsTooLongOrWrongIsDropped) {
 }
 
 TEST_F(FleetOnTheWire, PicturesOfStrangersAreSmallAndWholeOrNotThere) {
-  here_.fleet->look(hal::Clock::now());
+  here_.fleet->note_viewer(hal::Clock::now());
   const dds_topic_descriptor_t type = endless_type();
   const ForeignWriter stranger(DdsNetwork::kReaderDomain, type, std::string(kThumbnailTopic),
                                frame_qos());

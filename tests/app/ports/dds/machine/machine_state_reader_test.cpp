@@ -10,6 +10,7 @@
 #include <mutex>
 #include <vector>
 
+#include "app/machine/machine_follower.h"
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/topics/topic_names.h"
 #include "tests/app/ports/dds/foreign_writer.h"
@@ -58,11 +59,12 @@ class MachineStates : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(network_.valid()); }
 
-  void start() {
+  void start() { start(machine_.path()); }
+  void start(const MachinePath& path) {
     sink_.emplace(DdsSettings{.domain = DdsNetwork::kSinkDomain}, StatusNames{{}, {"front"}, {}},
                   nullptr, network_addresses, std::make_shared<CommandRecord>(),
                   hal::SharedThreads::alone(), ApplianceIdentity{}, nullptr,
-                  std::vector<PublishedView>{}, std::vector<PublishedCamera>{}, machine_.path());
+                  std::vector<PublishedView>{}, std::vector<PublishedCamera>{}, path);
     const auto started = sink_->start();
     ASSERT_TRUE(started) << started.error().message;
   }
@@ -74,6 +76,7 @@ class MachineStates : public testing::Test {
 
   DdsNetwork network_;
   TakenStates machine_;
+  machine::MachineFollower follower_{{.source = MachineSource::Dds}};
   std::optional<DdsSink> sink_;
 };
 
@@ -128,6 +131,18 @@ TEST_F(MachineStates, ANameThatIsNotUtf8IsRefused) {
     return !machine_.states().empty();
   }));
   for (const MachineState& state : machine_.states()) EXPECT_EQ(state.part.text(), "good");
+}
+
+TEST_F(MachineStates, ANameThatIsNotUtf8IsCounted) {
+  start(follower_.path());
+  const ForeignWriter writer = controller(command_qos());
+  ASSERT_TRUE(writer.wait_for_reader());
+  const MachineStateMessage bad = message(1, 1, "\xff");
+  EXPECT_TRUE(eventually([&] {
+    writer.write(&bad);
+    return follower_.keep(hal::Clock::now()).refused > 0;
+  }));
+  EXPECT_EQ(follower_.keep(hal::Clock::now()).states, 0U);
 }
 
 }  // namespace

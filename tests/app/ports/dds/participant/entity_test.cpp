@@ -29,5 +29,16 @@ TEST(EntityTest, ErrorsSayWhatAndWhy) {
             "DDS writer: Out Of Resources");
 }
 
+TEST(EntityTest, ErrorsOfAccessControlAreKnownWithFurtherText) {
+  Error error = dds_error("reader", DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
+  EXPECT_TRUE(is_refused_by_security(error));
+  error.message += " (rt/orbwatch/machine_state)";
+  EXPECT_TRUE(is_refused_by_security(error));
+  for (const dds_return_t other : {DDS_RETCODE_ERROR, DDS_RETCODE_OUT_OF_RESOURCES,
+                                   DDS_RETCODE_BAD_PARAMETER, DDS_RETCODE_NOT_ENABLED}) {
+    EXPECT_FALSE(is_refused_by_security(dds_error("reader", other))) << other;
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::app::dds

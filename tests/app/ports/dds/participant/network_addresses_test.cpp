@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/participant/network_addresses.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 
-#include "hal/thread/file_descriptor.h"
+#include "tests/app/ports/dds/participant/bound_socket.h"
 
 namespace orbwatch::app::dds {
 namespace {
+
+using tests::bound_socket;
 
 const NetworkAddress kLoopback{"lo", "127.0.0.1"}, kWire{"eth0", "192.168.0.7"},
     kOtherWire{"eth0", "192.168.0.8"}, kContainers{"docker0", "172.17.0.1"};
@@ -48,20 +49,22 @@ TEST(InterfaceWatch, UnknownSocketsMakeEveryInterfaceCount) {
 }
 
 TEST(BoundAddresses, AreThoseOfUdpSocketsForOneAddress) {
-  const auto bound_to = [](int type, const char* text) {
-    hal::FileDescriptor socket(::socket(AF_INET, type | SOCK_CLOEXEC, 0));
-    sockaddr_in name{};
-    name.sin_family = AF_INET;
-    inet_pton(AF_INET, text, &name.sin_addr);
-    EXPECT_EQ(::bind(socket.get(), reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
-    return socket;
-  };
-  const auto udp = bound_to(SOCK_DGRAM, "127.0.0.77"), tcp = bound_to(SOCK_STREAM, "127.0.0.78"),
-             all = bound_to(SOCK_DGRAM, "0.0.0.0");
+  const auto udp = bound_socket(SOCK_DGRAM, "127.0.0.77"),
+             tcp = bound_socket(SOCK_STREAM, "127.0.0.78"),
+             all = bound_socket(SOCK_DGRAM, "0.0.0.0");
   const auto bound = bound_addresses();
   EXPECT_THAT(bound, testing::Contains("127.0.0.77"));
   EXPECT_THAT(bound, testing::Not(testing::Contains("127.0.0.78")));
   EXPECT_THAT(bound, testing::Not(testing::Contains("0.0.0.0")));
+}
+
+TEST(BoundAddresses, AreWithoutThoseOfEarlierSockets) {
+  const auto camera = bound_socket(SOCK_DGRAM, "127.0.0.77");
+  const auto earlier = open_sockets();
+  const auto later = bound_socket(SOCK_DGRAM, "127.0.0.79");
+  const auto bound = bound_addresses(earlier);
+  EXPECT_THAT(bound, testing::Contains("127.0.0.79"));
+  EXPECT_THAT(bound, testing::Not(testing::Contains("127.0.0.77")));
 }
 
 }  // namespace

@@ -4,13 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <vector>
 
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/pictures/image_message.h"
 #include "app/ports/dds/topics/topic_reader.h"
 #include "tests/app/ports/dds/dds_network.h"
+#include "tests/app/ports/dds/participant/bound_socket.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::dds {
@@ -58,6 +62,19 @@ TEST(ParticipantTest, TheLastToLeaveClosesTheDomain) {
   EXPECT_TRUE(Participant::join(kDomain));
   participant->leave();
   EXPECT_FALSE(Participant::join(kDomain));
+}
+
+TEST(ParticipantTest, ItsAddressesAreThoseOfItsOwnSockets) {
+  configure("lo");
+  const auto camera = tests::bound_socket(SOCK_DGRAM, "127.0.0.77");
+  auto first = Participant::join(kDomain);
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_THAT(first->addresses(), testing::ElementsAre("127.0.0.1"));
+  const auto second = Participant::join(kDomain);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(second->addresses(), first->addresses()) << "they share the sockets";
+  first->leave();
+  EXPECT_THAT(first->addresses(), testing::IsEmpty());
 }
 
 TEST(ParticipantTest, TheEnvironmentOverridesOurDefaults) {
@@ -138,6 +155,31 @@ TEST(ParticipantTest, ASinkWaitsForAnInterfaceThatIsMissing) {
     sink.accept(Status{});
     return sink.statistics().joins == 1;
   }));
+}
+
+TEST(ParticipantTest, ASinkStaysWhenTheInterfaceOfACameraGoes) {
+  configure("lo");
+  const auto camera = tests::bound_socket(SOCK_DGRAM, "127.0.0.77");
+  // The sink watches every interface if it knows loopback addresses only, so another one is there.
+  const NetworkAddress card{"eth1", "127.0.0.77"}, lo{"lo", "127.0.0.1"},
+      other{"eth0", "192.168.0.7"};
+  std::atomic<bool> is_unplugged = false;
+  std::atomic<int> checks = 0;  // after the cable was pulled
+  DdsSink sink({.domain = kDomain}, {{}, {"front"}, {}}, nullptr,
+               [&]() -> std::optional<std::vector<NetworkAddress>> {
+                 if (!is_unplugged) return std::vector{other, card, lo};
+                 ++checks;
+                 return std::vector{other, lo};
+               });
+  ASSERT_TRUE(sink.start());
+  ASSERT_EQ(sink.statistics().joins, 1U);
+  is_unplugged = true;
+  // A second check begins when the consequences of the first have ended.
+  ASSERT_TRUE(tests::eventually([&] {
+    sink.accept(Status{});
+    return checks >= 2;
+  }));
+  EXPECT_EQ(sink.statistics().joins, 1U);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using cli::enclave_folder;
 using cli::StateReader;
+using testing::AllOf;
 using testing::HasSubstr;
 using tests::DdsNetwork;
 using tests::eventually;
@@ -298,6 +299,22 @@ TEST_F(SecureNetwork, WithKeysOfAnEarlierVersionTheSinkDoesAllButTheFleet) {
   const auto state = states.next(std::chrono::minutes(1), [](const cli::ReceivedState&) {});
   ASSERT_TRUE(state) << state.error().message;
   EXPECT_TRUE(*state);
+  EXPECT_EQ(sink.statistics().joins, 1U);
+}
+
+TEST_F(SecureNetwork, WithKeysOfAnEarlierVersionTheSinkDoesAllButStatesOfTheMachine) {
+  auto earlier = keystore_request(folder_ / "earlier");
+  std::erase(earlier.appliance.subscribe, machine_state_topic("orbwatch"));
+  make_keystore(earlier);
+  DdsSink sink({.domain = kSecondPeer, .security = keys_of(folder_ / "earlier", "appliance")},
+               {{}, {"front"}, {}}, nullptr, network_addresses, std::make_shared<CommandRecord>(),
+               hal::SharedThreads::alone(), {}, nullptr, {}, {},
+               {MachineSource::Dds, [](const MachineState&) { return Result<>(); }});
+  testing::internal::CaptureStderr();
+  ASSERT_TRUE(sink.start());
+  EXPECT_TRUE(sink.works());
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              AllOf(HasSubstr("do not permit machine_state"), HasSubstr("orbwatch dds-keys")));
   EXPECT_EQ(sink.statistics().joins, 1U);
 }
 

@@ -9,7 +9,9 @@
 #include <mutex>
 #include <random>
 #include <thread>
+#include <utility>
 
+#include "hal/clock.h"
 #include "tests/app/ports/modbus/clients.h"
 #include "tests/app/ports/modbus/serial_cable.h"
 #include "tests/support/reference_data.h"
@@ -256,10 +258,17 @@ class EchoingMaster {
  public:
   explicit EchoingMaster(const std::string& path) : master_(path) {}
 
+  /// The answer, which is not echoed; empty: none within a second.
+  Bytes ask(const Bytes& request, std::size_t size) {
+    const auto before = std::exchange(asked_, hal::Clock::now());
+    master_.send(request);
+    Bytes answer = master_.receive(size, std::chrono::seconds(1));
+    is_late_ = is_late_ || hal::Clock::now() - before > kLatest;
+    return answer;
+  }
   /// The answer, which is echoed to its sender.
   Bytes ask(const Bytes& request, std::size_t size, std::size_t piece) {
-    master_.send(request);
-    const Bytes answer = master_.receive(size);
+    const Bytes answer = ask(request, size);
     for (std::size_t at = 0; at < answer.size(); at += piece) {
       const auto begin = answer.begin() + static_cast<std::ptrdiff_t>(at);
       master_.send(Bytes(begin, begin + std::ptrdiff_t(std::min(piece, answer.size() - at))));
@@ -267,34 +276,72 @@ class EchoingMaster {
     return answer;
   }
 
+  /// True: an echo may have been so late that it was not expected any more. The answer to the next
+  /// request shows that it has been read.
+  bool is_late() const { return is_late_; }
+
  private:
+  /// Limit from a request to the answer to the next one. The appliance expects an echo for 150 ms.
+  static constexpr std::chrono::milliseconds kLatest{100};
+
   RawMaster master_;
+  hal::TimePoint asked_ = hal::TimePoint::max();  ///< time of the last request; max(): none
+  bool is_late_ = false;
 };
 
 const auto kHeartbeatRegister = static_cast<std::uint8_t>(address_of("plc_heartbeat"));
+constexpr std::uint64_t kEchoed = 30;  ///< answers that are echoed
 
-TEST_F(ModbusRtu, ItsOwnAnswersThatComeBackAreNotAnswered) {
-  start();
-  const Bytes read = rtu_frame(kUnit, kReadVersion);
-  EchoingMaster master(cable_.master());
-  testing::internal::CaptureStderr();
-  std::uint64_t answered = 0;
+/// Returns whether the appliance answers kEchoed requests and one more, each of them once.
+bool echoes_are_removed(EchoingMaster& master) {
+  const Bytes read = rtu_frame(kUnit, kReadVersion), said = rtu_frame(kUnit, version());
   for (const std::size_t piece : {100U, 3U, 1U}) {
     for (std::uint8_t value = 1; value <= 5; ++value) {
       const Bytes write = rtu_frame(kUnit, {6, 0, kHeartbeatRegister, 0, value});
-      ASSERT_EQ(master.ask(write, 8, piece), write);
-      ASSERT_EQ(master.ask(read, 7, piece), rtu_frame(kUnit, version()));
-      answered += 2;
+      if (master.ask(write, 8, piece) != write || master.ask(read, 7, piece) != said) return false;
     }
   }
-  EXPECT_TRUE(eventually([&] { return statistics().serial_echoes == answered; }));
-  EXPECT_EQ(statistics().answered, answered);
+  return master.ask(read, 7) == said;
+}
+
+/// Outcome of requests to a new appliance on a line that echoes.
+class EchoedAnswers : public ModbusRtu {
+ protected:
+  void ask() {
+    start();
+    EchoingMaster master(cable_.master());
+    testing::internal::CaptureStderr();
+    are_removed_ = echoes_are_removed(master);
+    is_late_ = master.is_late();
+    sink_->stop();
+    log_ = testing::internal::GetCapturedStderr();
+  }
+  /// Removes the bytes that are on their way.
+  void change_cable() {
+    cable_.unplug();
+    cable_.plug_in();
+  }
+
+  bool are_removed_ = false;
+  bool is_late_ = false;
+  std::string log_;
+};
+
+TEST_F(EchoedAnswers, AreNotAnswered) {
+  ask();
+  // On a busy machine an echo may be later than the appliance expects it.
+  for (int again = 0; is_late_ && again < 20; ++again) {
+    change_cable();
+    ask();
+  }
+  ASSERT_FALSE(is_late_);
+  EXPECT_TRUE(are_removed_);
+  EXPECT_EQ(statistics().serial_echoes, kEchoed);
+  EXPECT_EQ(statistics().answered, kEchoed + 1);
   EXPECT_EQ(statistics().serial_errors, 0U);
-  sink_->stop();
-  const std::string log = testing::internal::GetCapturedStderr();
-  const std::size_t said = log.find("echoes sent answers");
-  ASSERT_NE(said, log.npos) << log;
-  EXPECT_EQ(log.find("echoes sent answers", said + 1), log.npos) << log;
+  const std::size_t said = log_.find("echoes sent answers");
+  ASSERT_NE(said, log_.npos) << log_;
+  EXPECT_EQ(log_.find("echoes sent answers", said + 1), log_.npos) << log_;
 }
 
 TEST_F(ModbusRtu, AMasterThatRepeatsItsWriteIsAnswered) {

@@ -2,13 +2,17 @@
 #include "app/ports/web/access/access.h"
 
 #include <gmock/gmock.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
 #include "app/ports/web/access/login/secret.h"
 #include "app/state/private_file.h"
 #include "tests/app/ports/web/access/access_served.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
@@ -137,6 +141,57 @@ TEST_F(AccessTest, AnUnknownNameIsRefusedAsAWrongPasswordIs) {
     EXPECT_EQ(refused.error().status, 401);
     EXPECT_EQ(refused.error().what, "name or password is wrong");
   }
+}
+
+/// Leaves the process less memory than a hash needs, during its lifetime.
+class NoMemoryForAHash {
+ public:
+  NoMemoryForAHash() {
+    rlim_t used_pages = 0;
+    std::ifstream("/proc/self/statm") >> used_pages;
+    ::getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = used_pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kHash / 2;
+    ::setrlimit(RLIMIT_AS, &limit);
+  }
+  ~NoMemoryForAHash() { ::setrlimit(RLIMIT_AS, &before_); }
+  NoMemoryForAHash(const NoMemoryForAHash&) = delete;
+  NoMemoryForAHash& operator=(const NoMemoryForAHash&) = delete;
+
+  /// False: this system ignores the limit.
+  static bool has_effect() {
+    void* const memory =
+        ::mmap(nullptr, kHash, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return true;
+    ::munmap(memory, kHash);
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kHash = std::size_t{64} << 20;
+  rlimit before_{};
+};
+
+TEST_F(AccessTest, APasswordThatCannotBeCheckedIsNoWrongOne) {
+  if (orbwatch::tests::kIsSanitized) GTEST_SKIP() << "a sanitizer needs address space of its own";
+  add("admin", Role::Administrator);
+  {
+    const NoMemoryForAHash no_memory;
+    if (!NoMemoryForAHash::has_effect()) GTEST_SKIP() << "this system does not limit memory";
+    for (int i = 0; i <= LoginLimits::kFree; ++i) {
+      for (const char* name : {"admin", "nobody"}) {
+        const auto refused = access->login(name, kPassword, kPeer);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().status, 503) << refused.error().what;
+        EXPECT_THAT(refused.error().what, HasSubstr("less than 64 MiB of memory is free"));
+      }
+    }
+    const auto unchanged = access->change_password("admin", kPassword, "another long one", kPeer);
+    ASSERT_FALSE(unchanged);
+    EXPECT_EQ(unchanged.error().status, 503);
+  }
+  EXPECT_EQ(access->failures(), 0U);
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer)) << "nobody has to wait";
 }
 
 TEST_F(AccessTest, APasswordIsChangedByWhoKnowsIt) {

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <future>
+#include <new>
 #include <string>
 #include <thread>
 #include <vector>
@@ -80,6 +81,17 @@ TEST_F(SlowWorkTest, OneAskerTakesAPartOfTheQueue) {
   for (std::size_t i = 0; i < SlowWork::kMostOfKnown; ++i) EXPECT_FALSE(is_refused({true, "kim"}));
   EXPECT_TRUE(is_refused({true, "kim"}));
   EXPECT_FALSE(is_refused({true, "lee"}));
+}
+
+TEST_F(SlowWorkTest, ARequestWithoutMemoryIsRefusedAndTheNextOneIsServed) {
+  const ExchangePtr refused = submit({true, "kim"}, [] { throw std::bad_alloc(); });
+  submit({true, "lee"});
+  finish();
+  const auto response = refused->response_or_suspend(nullptr);
+  ASSERT_TRUE(response);
+  EXPECT_EQ(response->status, 503);
+  EXPECT_NE(response->body->find("not enough memory"), std::string::npos) << *response->body;
+  EXPECT_EQ(served, (std::vector<std::string>{"first", "lee"}));
 }
 
 TEST_F(SlowWorkTest, TheQueuesAreServedInTurn) {

@@ -23,11 +23,20 @@ TEST(Secret, OnlyThePasswordItselfIsRight) {
   ASSERT_TRUE(hash);
   EXPECT_TRUE(hash->starts_with("$argon2id$")) << *hash;
   EXPECT_NE(*hash, *hash_password(password)) << "without salt";
-  EXPECT_TRUE(is_password(*hash, password));
-  EXPECT_FALSE(is_password(*hash, "correct horse batterz"));
-  EXPECT_FALSE(is_password(*hash, ""));
-  EXPECT_FALSE(is_password("", password));
-  EXPECT_FALSE(is_password("nonsense", password));
+  EXPECT_EQ(match_password(*hash, password), PasswordMatch::Right);
+  EXPECT_EQ(match_password(*hash, "correct horse batterz"), PasswordMatch::Wrong);
+  EXPECT_EQ(match_password(*hash, ""), PasswordMatch::Wrong);
+  EXPECT_EQ(match_password("", password), PasswordMatch::Wrong);
+  EXPECT_EQ(match_password("nonsense", password), PasswordMatch::Wrong);
+  EXPECT_EQ(match_password(hash->substr(0, hash->size() / 2), password), PasswordMatch::Wrong);
+}
+
+/// Otherwise the time of a login would tell whether the name is known.
+TEST(Secret, AnUnknownNameIsComparedWithTheParametersOfKnownOnes) {
+  const auto hash = hash_password("correct horse battery");
+  ASSERT_TRUE(hash);
+  EXPECT_TRUE(hash->starts_with("$argon2id$v=19$m=65536,t=2,p=1$")) << "that of nobody has these";
+  EXPECT_EQ(match_password("", "correct horse battery"), PasswordMatch::Wrong);
 }
 
 TEST(Secret, APasswordHasTwelveCharactersNotBytes) {

@@ -178,6 +178,15 @@ TEST_F(Configuration, IsNotedInTheAudit) {
   EXPECT_EQ(entries[2]["result"], "refused");
 }
 
+TEST_F(Configuration, ThatIsLongIsNotedByItsBegin) {
+  start();
+  std::string text = "#";
+  for (int i = 0; i < 3000; ++i) text += "\u00e4";
+  ASSERT_EQ(ask("try", {{"files", {{"rig.toml", text}}}}).status, 200);
+  const json audit = json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body);
+  EXPECT_EQ(audit["entries"][0]["after"], text.substr(0, 4095)) << "one more character has 4097";
+}
+
 TEST_F(Configuration, OfALimitIsAnotherTextOfTheRecipesFile) {
   start();
   const json limit{{"alarm", 2}, {"region", "pool"}, {"signal", "hot_spot_width"}};

@@ -35,6 +35,7 @@ class MadeUpDevice : public DeviceFiles {
   }
   Result<std::uint64_t> upload(std::uint64_t offset, std::string_view bytes) override {
     const std::lock_guard lock(mutex_);
+    if (offset == 0) uploaded.clear();
     if (offset != uploaded.size()) return fail("offset must be the size");
     uploaded += bytes;
     return uploaded.size();
@@ -218,6 +219,31 @@ TEST_F(Device, BackupIsUploadedInPartsCheckedAndRestored) {
   ASSERT_EQ(ask("check_restore", {{"passphrase", nullptr}, {"events", false}}).status, 200);
   EXPECT_FALSE(device->asked.events);
   EXPECT_THAT(audited("restore"), testing::ElementsAre("backup of cell-4, 2026-11-28"));
+}
+
+TEST_F(Device, OnlyTheCheckedBackupIsRestored) {
+  const auto upload = [&](int offset, const char* bytes) {
+    EXPECT_EQ(ask("upload_backup", {{"offset", offset}, {"bytes", bytes}}).status, 200);
+  };
+  const json without_hash{{"passphrase", nullptr}};
+  upload(0, "Zmlyc3Q=");
+  upload(5, "c2Vjb25k");
+  json body = without_hash;
+  body["sha256"] = json::parse(ask("check_restore", without_hash).body).at("sha256");
+  EXPECT_EQ(body["sha256"], "da83f63e1a473003712c18f5afc5a79044221943d1083c7c5a7ac7236d85e8d2");
+
+  upload(0, "Zmlyc3Q=");  // by another user
+  const Answer refused = ask("restore", body);
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_THAT(refused.body, HasSubstr("another backup was uploaded meanwhile; check it first"));
+  EXPECT_EQ(device->restarts, 0);
+  upload(5, "c2Vjb25k");
+  EXPECT_EQ(ask("upload_backup", {{"offset", 5}, {"bytes", "c2Vjb25k"}}).status, 409);
+  EXPECT_EQ(ask("restore", body).status, 200) << "the same bytes; a refused part does not count";
+  EXPECT_EQ(device->restarts, 1);
+  upload(0, "Zmlyc3Q=");
+  EXPECT_EQ(ask("restore", without_hash).status, 200) << "as scripts did before there was a hash";
+  EXPECT_EQ(device->restarts, 2);
 }
 
 TEST_F(Device, ResetNeedsItsWords) {

@@ -15,11 +15,11 @@ using nlohmann::json;
 
 class FleetRoutes : public Served {
  protected:
-  void hear(const std::string& id, const std::string& name, hal::TimePoint now) const {
+  void receive(const std::string& id, const std::string& name, hal::TimePoint now) const {
     ApplianceNotice notice;
     notice.name = name;
     notice.page = {"10.0.0.7", 8443};
-    fleet->hear(id, notice, now);
+    fleet->receive(id, notice, now);
   }
   json list() const { return json::parse(get(port(), "/api/v1/appliances").body); }
 };
@@ -27,8 +27,8 @@ class FleetRoutes : public Served {
 TEST_F(FleetRoutes, ListAppliancesAndMarkThoseThatAreGone) {
   fleet = std::make_shared<Fleet>();
   start();
-  hear("02", "cell 2", hal::Clock::now());
-  hear("01", "cell 1", hal::Clock::now() - std::chrono::minutes(1));
+  receive("02", "cell 2", hal::Clock::now());
+  receive("01", "cell 1", hal::Clock::now() - std::chrono::minutes(1));
   const json all = list();
   EXPECT_TRUE(all["missing"].is_null());
   ASSERT_EQ(all["appliances"].size(), 2U);
@@ -36,7 +36,7 @@ TEST_F(FleetRoutes, ListAppliancesAndMarkThoseThatAreGone) {
   EXPECT_EQ(all["appliances"][0]["is_gone"], true);
   EXPECT_EQ(all["appliances"][1]["is_gone"], false);
   EXPECT_EQ(all["appliances"][1]["page"], "https://10.0.0.7:8443/");
-  EXPECT_TRUE(fleet->is_looked_at(hal::Clock::now())) << "pictures are fetched from now on";
+  EXPECT_TRUE(fleet->has_viewers(hal::Clock::now())) << "pictures are fetched from now on";
   EXPECT_EQ(fleet->forget_gone(hal::Clock::now()), 1U);
   EXPECT_EQ(list()["appliances"].size(), 1U);
 }
@@ -44,7 +44,7 @@ TEST_F(FleetRoutes, ListAppliancesAndMarkThoseThatAreGone) {
 TEST_F(FleetRoutes, ShowThePictureOfOneThatIsListed) {
   fleet = std::make_shared<Fleet>();
   start();
-  hear("01", "cell 1", hal::Clock::now());
+  receive("01", "cell 1", hal::Clock::now());
   EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg?appliance=01").status, 404);
   fleet->show("01", "a picture");
   const Answer picture = get(port(), "/api/v1/appliances/picture.jpg?appliance=01");
@@ -59,8 +59,8 @@ TEST_F(FleetRoutes, RemoveThoseThatAreGoneAndRecordIt) {
   state_folder = folder.path();
   fleet = std::make_shared<Fleet>();
   start();
-  hear("01", "cell 1", hal::Clock::now() - std::chrono::minutes(1));
-  hear("02", "cell 2", hal::Clock::now());
+  receive("01", "cell 1", hal::Clock::now() - std::chrono::minutes(1));
+  receive("02", "cell 2", hal::Clock::now());
   list();
   const Answer answer = request(port(), "POST", "/api/v1/forget_appliances", kJsonHeader, "{}");
   EXPECT_EQ(json::parse(answer.body), (json{{"forgotten", 1}}));

@@ -50,11 +50,20 @@ class FigureFile : public testing::Test {
     read << std::ifstream(file, std::ios::binary).rdbuf();
     return read.str();
   }
-  std::string refusal(const std::string& damaged) const {
-    std::ofstream(file, std::ios::binary | std::ios::trunc) << damaged;
+  /// The file's text with another value of a key of its head.
+  static std::string with(std::string text, const std::string& key, const std::string& value) {
+    const std::size_t begin = text.find("\"" + key + "\":") + key.size() + 3;
+    const std::string quote = text[begin] == '"' ? "\"" : "";
+    return text.replace(begin, text.find_first_of(",}", begin) - begin, quote + value + quote);
+  }
+  /// Reason why a file with this text is left out; "accepted": it is continued, with so many
+  /// components.
+  std::string refusal(const std::string& content, bool is_utc_certain = true,
+                      std::size_t components = 0) const {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
     FigureHistory history(names);
-    const auto resumed = resume_figures(file, history);
-    EXPECT_TRUE(history.components().empty());
+    const auto resumed = resume_figures(file, history, is_utc_certain);
+    EXPECT_EQ(history.components().size(), components);
     return resumed ? "accepted" : resumed.error().message;
   }
 
@@ -105,14 +114,24 @@ TEST_F(FigureFile, ThatIsDamagedIsRefused) {
   const std::string right = text();
   const std::size_t line = right.find('\n') + 1;
   EXPECT_THAT(refusal(""), HasSubstr("its first line is not JSON"));
-  EXPECT_THAT(refusal("{}"), HasSubstr("end is missing"));
+  EXPECT_THAT(refusal("{}"), HasSubstr("boot is missing"));
   EXPECT_THAT(refusal(right.substr(0, line)), HasSubstr("is damaged"));
   EXPECT_THAT(refusal(right.substr(0, right.size() - 1)), HasSubstr("is damaged"));
   EXPECT_THAT(refusal(right + "x"), HasSubstr("is damaged"));
-  std::string later = right;
-  const std::size_t end = later.find("\"end\":") + 6;
-  later.replace(end, 1, "2");
+  const std::string later = with(with(right, "boot", "another"), "end", "9000000000000000000");
   EXPECT_THAT(refusal(later), HasSubstr("ends in the future"));
+}
+
+TEST_F(FigureFile, WithinABootIsContinuedAlthoughUtcWasCorrected) {
+  write(std::chrono::seconds(5));
+  EXPECT_EQ(refusal(with(text(), "end", "9000000000000000000"), false, 3), "accepted");
+}
+
+TEST_F(FigureFile, OfBeforeThisBootWaitsForTheTimeServer) {
+  write(std::chrono::seconds(5));
+  const std::string before = with(text(), "boot", "another");
+  EXPECT_THAT(refusal(before, false), HasSubstr("no time server has set the clock yet"));
+  EXPECT_EQ(refusal(before, true, 3), "accepted");
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 #include "app/ports/web/http/connections.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -111,6 +114,96 @@ TEST(Connections, AClientThatHasGoneKeepsNoPlaceUnlessItsAnswerIsUnderWay) {
   EXPECT_FALSE(there.is_shut());
 }
 
+/// A connection over TCP, for which the kernel counts the bytes that the client has read.
+class TcpPair {
+ public:
+  TcpPair() {
+    const hal::FileDescriptor listener(::socket(AF_INET, SOCK_STREAM, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* const any = reinterpret_cast<sockaddr*>(&address);
+    EXPECT_EQ(::bind(listener.get(), any, size), 0);
+    EXPECT_EQ(::listen(listener.get(), 1), 0);
+    EXPECT_EQ(::getsockname(listener.get(), any, &size), 0);
+    client_ = hal::FileDescriptor(::socket(AF_INET, SOCK_STREAM, 0));
+    EXPECT_EQ(::connect(client_.get(), any, size), 0);
+    server_ = hal::FileDescriptor(::accept(listener.get(), nullptr, nullptr));
+    EXPECT_TRUE(server_.is_open());
+  }
+
+  int server() const { return server_.get(); }
+  /// Sends so many bytes to the client, which reads them.
+  void pass_bytes(std::size_t count) const {
+    std::jthread reader([&] {
+      std::vector<char> bytes(count);
+      EXPECT_EQ(::recv(client_.get(), bytes.data(), count, MSG_WAITALL),
+                static_cast<ssize_t>(count));
+    });
+    const std::vector<char> bytes(count);
+    EXPECT_EQ(::send(server_.get(), bytes.data(), count, 0), static_cast<ssize_t>(count));
+  }
+
+ private:
+  hal::FileDescriptor client_, server_;
+};
+
+TEST(Connections, ALongAnswerGoesOnAsLongAsItsClientReads) {
+  const TcpPair pair;
+  Connections connections(kTimeout);
+  auto* const connection = connections.add(pair.server(), "127.0.0.1", 1);
+  ASSERT_TRUE(connections.begin_answer(connection, nullptr));
+  connections.begin_sending(connection, {});
+  for (int term = 0; term < 3; ++term) {
+    pair.pass_bytes(4 * Connections::kLeastProgress);
+    EXPECT_EQ(connections.end_overdue(connection->deadline), 0U) << "term " << term;
+  }
+  pair.pass_bytes(1);
+  EXPECT_EQ(connections.end_overdue(connection->deadline), 1U) << "byte by byte";
+}
+
+/// An answer with a file of so many bytes, which is not open.
+Response file_of(std::uint64_t size) {
+  return file_response(kText,
+                       std::make_shared<const OpenFile>(OpenFile{hal::FileDescriptor(), size}));
+}
+
+TEST(Connections, AFileIsReadAtTheLeastRateOnAverage) {
+  constexpr std::uint64_t kRecording = 4'000'000'000;
+  const TcpPair pair;
+  Connections connections(kTimeout);
+  auto* const connection = connections.add(pair.server(), "127.0.0.1", 1);
+  ASSERT_TRUE(connections.begin_answer(connection, nullptr));
+  connections.begin_sending(connection, file_of(kRecording));
+  const hal::TimePoint begin = connection->deadline - kTimeout;
+  const auto overdue_after = [&](seconds time) {
+    pair.pass_bytes(4 * Connections::kLeastProgress);
+    return connections.end_overdue(begin + time);
+  };
+  const seconds longest = kTimeout + seconds(kRecording / Connections::kLeastRate);
+  EXPECT_EQ(overdue_after(std::chrono::hours(5)), 0U) << "over a VPN of 2 Mbit/s";
+  EXPECT_EQ(overdue_after(longest - seconds(1)), 0U);
+  EXPECT_EQ(overdue_after(longest), 1U) << "however much of it is read in each term";
+}
+
+TEST(Connections, AFileEndsWhenItsClientMayNotReceiveItAnyMore) {
+  const Pair pair;
+  Connections connections(kTimeout);
+  auto* const connection = connections.add(pair.server(), "10.0.0.7", 1);
+  ASSERT_TRUE(connections.begin_answer(connection, nullptr));
+  bool may_go_on = true;
+  Response response = file_of(1);
+  response.may_go_on = [&may_go_on] { return may_go_on; };
+  connections.begin_sending(connection, response);
+  const hal::TimePoint now = connection->deadline - seconds(1);
+  EXPECT_EQ(connections.end_overdue(now), 0U);
+  EXPECT_FALSE(pair.is_shut());
+  may_go_on = false;
+  EXPECT_EQ(connections.end_overdue(now), 0U) << "its client is not slow";
+  EXPECT_TRUE(pair.is_shut());
+}
+
 TEST(Connections, WhatHasTakenEffectIsNotAnsweredByTheDeadline) {
   Connections connections(kTimeout);
   const Pair pair;
@@ -134,7 +227,7 @@ TEST(Connections, TheirEndWaitsForAnswersThatAreBeingSent) {
   std::atomic<bool> is_sent{false};
   std::jthread server([&] {
     exchange->answer({});
-    connections.begin_sending(connection);
+    connections.begin_sending(connection, {});
     is_sent = true;
     connections.end_answer(connection);
   });

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/model/status/utc_text.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {
@@ -45,6 +46,12 @@ TEST_F(Log, IsReadAsJson) {
   EXPECT_EQ(lines[1]["fault"], "stalled");
   EXPECT_EQ(lines[1]["trigger"], 7);
   EXPECT_EQ(lines[2]["text"], "no file \xEF\xBF\xBD") << "bytes that are no UTF-8";
+}
+
+TEST_F(Log, StatesTheStartFromWhichItsLinesAreCounted) {
+  const std::string started = utc_text(program.log->started()).value();
+  EXPECT_EQ(json::parse(get(port(), "/api/v1/log").body)["started"], started);
+  EXPECT_EQ(json::parse(get(port(), "/api/v1/log?after=3").body)["started"], started);
 }
 
 TEST_F(Log, IsFiltered) {

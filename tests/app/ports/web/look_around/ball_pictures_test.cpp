@@ -40,6 +40,7 @@ class Cameras : public AlignmentSource {
     EXPECT_FALSE(picture.view) << "the whole picture";
     const std::lock_guard lock(mutex_);
     asked.push_back(picture.camera);
+    sides.emplace_back(picture.width, picture.height);
     if (delivers_) {
       threads_.emplace_back([on_pictures] {
         on_pictures(AlignmentJpegs{hal::Clock::now(), {"a picture"}});
@@ -53,7 +54,8 @@ class Cameras : public AlignmentSource {
     for (const OnPictures& on_pictures : std::exchange(waiting_, {})) on_pictures(made);
   }
 
-  std::vector<std::size_t> asked;  ///< cameras in the order of their requests
+  std::vector<std::size_t> asked;          ///< cameras in the order of their requests
+  std::vector<std::pair<int, int>> sides;  ///< sides of their pictures
   std::vector<std::size_t> unwatched;
   bool is_unplugged = false;
 
@@ -81,7 +83,7 @@ WebContext two_cameras(Cameras& cameras) {
 
 std::vector<std::string> names_of(const WebContext& context) {
   std::vector<std::string> names;
-  for (const auto& [name, feed] : BallPictures(context).feeds()) names.push_back(name);
+  for (const PictureSource& source : BallPictures(context).sources()) names.push_back(source.name);
   return names;
 }
 
@@ -92,7 +94,7 @@ TEST(BallPictures, AreRequestedOnlyWhileTheyAreRead) {
   EXPECT_THAT(cameras.asked, ElementsAre()) << "there is no reader";
   const hal::TimePoint stamp = hal::Clock::now();
   {
-    Feed::Reader reader(balls.all()[1].feed, [] {});
+    Feed::Reader reader(balls.all()[1].feeds.of(kFullSize), [] {});
     balls.follow();
     balls.follow();
     EXPECT_THAT(cameras.asked, ElementsAre(1U)) << "one at a time";
@@ -110,10 +112,25 @@ TEST(BallPictures, AreRequestedOnlyWhileTheyAreRead) {
   EXPECT_THAT(cameras.asked, ElementsAre(1U, 1U)) << "the reader has gone";
 }
 
+TEST(BallPictures, AreMadeInEachSizeThatIsRead) {
+  Cameras cameras;
+  BallPictures balls(two_cameras(cameras));
+  const PictureFeeds& feeds = balls.all()[0].feeds;
+  Feed::Reader full(feeds.of(kFullSize), [] {}), quarter(feeds.of(3), [] {});
+  balls.follow();
+  EXPECT_THAT(cameras.sides, ElementsAre(std::pair(640, 480), std::pair(160, 120)));
+  cameras.deliver(AlignmentJpegs{hal::Clock::now(), {"a picture"}});
+  const auto large = full.next(), small = quarter.next();
+  ASSERT_TRUE(large && small);
+  EXPECT_EQ(small->width, 640) << "coordinates are those of the full picture";
+  EXPECT_EQ(small->height, 480);
+  EXPECT_NE(large->number, small->number) << "another picture";
+}
+
 TEST(BallPictures, ContinueAfterAFaultAndAFailure) {
   Cameras cameras;
   BallPictures balls(two_cameras(cameras));
-  Feed::Reader reader(balls.all()[0].feed, [] {});
+  Feed::Reader reader(balls.all()[0].feeds.of(kFullSize), [] {});
   cameras.is_unplugged = true;
   balls.follow();
   EXPECT_THAT(cameras.asked, ElementsAre());

@@ -62,6 +62,7 @@ TEST_F(ServedSphere, NodesAreWhereTheExactModelShowsThem) {
   ASSERT_EQ(bytes.size(), nodes * 24 + corners * 4);
   EXPECT_EQ(head["width"], 640);
   EXPECT_EQ(head["height"], 480);
+  EXPECT_EQ(head["widths"], json::array({640, 480, 320, 160}));
 
   const auto vector = [&](const char* name) {
     return Vec3{head[name][0], head[name][1], head[name][2]};

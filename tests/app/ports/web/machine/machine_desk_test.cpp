@@ -2,6 +2,7 @@
 // States of the machine that scripts send, over the server.
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -19,12 +20,14 @@ class MachineStates : public Served {
  protected:
   void serve(MachineSource source) {
     WebContext context = make_context();
-    context.machine = {source, [this](const MachineState& state) -> Result<> {
+    context.machine = {source,
+                       [this](const MachineState& state) -> Result<> {
                          if (auto checked = check(state); !checked) return checked;
                          const std::lock_guard lock(mutex_);
                          states_.push_back(state);
                          return {};
-                       }};
+                       },
+                       [this](const Error&) { ++refused_; }};
     sink = std::make_unique<WebSink>(on_a_free_port(), context);
     ASSERT_TRUE(sink->start());
   }
@@ -35,8 +38,10 @@ class MachineStates : public Served {
     const std::lock_guard lock(mutex_);
     return states_;
   }
+  int refused() const { return refused_; }
 
  private:
+  std::atomic<int> refused_{0};
   mutable std::mutex mutex_;
   std::vector<MachineState> states_;
 };
@@ -85,6 +90,8 @@ TEST_F(MachineStates, WhatIsWrongIsRefusedByName) {
     EXPECT_EQ(answer.status, 400) << body;
     EXPECT_THAT(answer.body, HasSubstr(reason)) << body;
   }
+  // The handler itself counts what it refuses: a number that is not whole.
+  EXPECT_EQ(refused(), static_cast<int>(std::size(refusals)) - 1);
   EXPECT_TRUE(states().empty());
 }
 

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
 #include "tests/app/ports/web/served.h"
 #include "tests/support/temporary_folder.h"
@@ -47,6 +49,8 @@ class QuickExports : public RecordedExports {
     std::filesystem::remove(folder_ / "export");
     return {};
   }
+
+  void show_event(std::string event) { status_.event = std::move(event); }
 
   std::atomic<bool> is_running{false};
   ExportRequest newest;
@@ -117,6 +121,15 @@ TEST_F(ExportRoutes, AreCancelledAndInTheAudit) {
   EXPECT_EQ(audit[0]["what"], "export_recording");
   EXPECT_EQ(audit[0]["after"], "e1 csv");
   EXPECT_EQ(audit[2]["what"], "cancel_export");
+}
+
+TEST_F(ExportRoutes, ValuesInTheAuditAreCutBetweenCharacters) {
+  std::string uncut = "x", cut = "x";
+  for (int i = 0; i < 3000; ++i) uncut += "\u00e4";
+  for (int i = 0; i < 2047; ++i) cut += "\u00e4";  // 4095 bytes; one more character has 4097
+  exports->show_event(uncut);
+  EXPECT_EQ(post("cancel_export", {{"number", 7}}).status, 409);
+  EXPECT_EQ(json::parse(get(port(), "/api/v1/audit").body)["entries"].back()["before"], cut);
 }
 
 TEST_F(ExportRoutes, RefuseWhatIsNoExport) {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/ports/web/served.h"
+#include "tests/app/ports/web/access/access_served.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
@@ -29,6 +29,7 @@ class Events : public RecordedEvents {
     event.name = name;
     event.trigger = "alarm";
     event.text = "melt pool: too large";
+    event.alarm = {"pool", "hot_spot_width", signals::AlarmLevel::HighAlarm, 27.25, "mm"};
     event.triggered = "2026-11-28T12:00:00Z";
     event.part = "blade 7";
     event.layer = 12;
@@ -143,6 +144,10 @@ TEST_F(RecordingRoutes, ListTheNewestFirst) {
   const json& newest = all["events"][0];
   EXPECT_EQ(newest["name"], "20261128-130000-alarm");
   EXPECT_EQ(newest["cause"], "melt pool: too large");
+  EXPECT_EQ(newest["alarm"]["region"], "pool");
+  EXPECT_EQ(newest["alarm"]["level_text"], "high alarm");
+  EXPECT_EQ(newest["alarm"]["value"], 27.25);
+  EXPECT_EQ(newest["line"], "");
   EXPECT_EQ(newest["part"], "blade 7");
   EXPECT_EQ(newest["layer"], 12);
   EXPECT_EQ(newest["bytes"], 10);
@@ -255,7 +260,7 @@ TEST_F(RecordingRoutes, RefuseWhatIsNoEventOrHasNoFile) {
   EXPECT_THAT(gone.body, HasSubstr("No such file"));
   std::filesystem::create_directory(folder.path() / "e1.jpg");
   EXPECT_THAT(get(port(), "/api/v1/recordings/trigger.jpg?event=e1").body,
-              HasSubstr("no regular file"));
+              HasSubstr("not a regular file"));
 }
 
 TEST_F(RecordingRoutes, PinAndDeleteWithARecordInTheAudit) {
@@ -271,6 +276,49 @@ TEST_F(RecordingRoutes, PinAndDeleteWithARecordInTheAudit) {
   EXPECT_EQ(audit[0]["after"], "e1 pinned");
   EXPECT_EQ(audit[2]["what"], "remove_recording");
   EXPECT_EQ(audit[2]["after"], "e1 deleted");
+}
+
+TEST_F(RecordingRoutes, LongNamesAreCutInTheAudit) {
+  const std::string name(300, 'x');
+  EXPECT_EQ(post("/api/v1/pin_recording", {{"event", name}, {"is_pinned", true}}).status, 409);
+  EXPECT_EQ(post("/api/v1/remove_recording", {{"event", name}}).status, 409);
+  const json audit = json::parse(get(port(), "/api/v1/audit").body)["entries"];
+  ASSERT_EQ(audit.size(), 2U);
+  EXPECT_EQ(audit[0]["after"], name.substr(0, 100) + " pinned");
+  EXPECT_EQ(audit[1]["after"], name.substr(0, 100) + " deleted");
+}
+
+/// Recordings of an appliance that has users.
+class RecordingsOfUsers : public AccessServed {
+ protected:
+  void SetUp() override {
+    AccessServed::SetUp();
+    add_one_of_each_role();
+    WebContext context = make_context();
+    context.events = events;
+    context.state_folder = state_folder;
+    WebSettings settings;
+    settings.request_timeout = std::chrono::minutes(1);  // a client that pauses is not overdue
+    serve(context, settings);
+  }
+
+  const orbwatch::tests::TemporaryFolder recordings;
+  const std::shared_ptr<Events> events = std::make_shared<Events>(recordings.path());
+};
+
+TEST_F(RecordingsOfUsers, ADownloadEndsWithItsToken) {
+  const std::string recording(32 << 20, 'x');  // more than all buffers on the way
+  events->add("e1", recording);
+  Client download(port(), 4096);
+  download.send(
+      request_text("GET", "/api/v1/recordings/event.mcap?event=e1", by_token(Role::Viewer)));
+  EXPECT_THAT(download.take_until("\r\n\r\n"), testing::StartsWith("HTTP/1.1 200"));
+  const Answer revoked = post("/api/v1/revoke_token", R"({"name":"viewer"})",
+                              by_token(Role::Administrator) + kJsonHeader);
+  EXPECT_EQ(revoked.status, 200) << revoked.body;
+  EXPECT_TRUE(eventually([&] { return sink->statistics().connections == 0; }));
+  EXPECT_LT(download.rest().size(), recording.size());
+  EXPECT_EQ(sink->statistics().overdue, 0U);
 }
 
 TEST_F(RecordingRoutes, SayWhichKeyIsMissingWithoutARecorder) {

@@ -126,6 +126,13 @@ TEST_F(ReplayRoutes, AreCancelledAndInTheAudit) {
   EXPECT_EQ(audit[0]["after"], "e1 recipe 2");
 }
 
+TEST_F(ReplayRoutes, LongNamesAreCutInTheAudit) {
+  const std::string name(300, 'x');
+  EXPECT_EQ(post("replay_recording", {{"event", name}, {"recipe", 2}}).status, 409);
+  const json audit = json::parse(get(port(), "/api/v1/audit").body)["entries"];
+  EXPECT_EQ(audit.back()["after"], name.substr(0, 100) + " recipe 2");
+}
+
 TEST_F(ReplayRoutes, RefuseWhatIsNoReplay) {
   EXPECT_EQ(post("replay_recording", {{"recipe", 1}}).status, 400);
   EXPECT_EQ(post("replay_recording", {{"event", "e1"}, {"recipe", 70000}}).status, 400);

@@ -39,7 +39,7 @@ TEST_F(Served, LiveStreamWithoutViewsReportsTheStatusAndAsksForNoPicture) {
   start();
   LiveClient client(port(), "/api/v1/live");
   const std::uint64_t first = client.next().head["number"];
-  EXPECT_EQ(client.next().head["number"], first + 1);
+  EXPECT_GT(client.next().head["number"], first) << "a busy reader gets the newest status";
   EXPECT_FALSE(sink->needs(0, hal::Clock::now()).jpeg);
 }
 

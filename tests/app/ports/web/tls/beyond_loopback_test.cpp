@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "app/ports/web/access/login/first_code.h"
+#include "hal/socket_address.h"
 #include "tests/app/ports/web/access/access_served.h"
 #include "tests/app/ports/web/tls/pem_files.h"
 #include "tests/app/ports/web/tls/tls_client.h"

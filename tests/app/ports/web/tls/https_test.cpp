@@ -146,7 +146,7 @@ TEST_F(Https, FilesThatDoNotBelongTogetherAreAFaultUntilTheyAreMended) {
 TEST_F(Https, ASelfMadeCertificateIsReplacedWhileItServes) {
   const WebSettings settings = secure();
   const Credential ending =
-      make_credential("ball", CertificateUse::Serve, valid_for(kRenewedBefore + seconds(3)),
+      make_credential("ball", CertificateUse::Serve, valid_for(kRenewedBefore + seconds(8)),
                       nullptr, own_hosts(settings))
           .value();
   ASSERT_TRUE(write_private(state_folder / "certificate.pem",

@@ -134,6 +134,51 @@ TEST(Audit, ShowsEachUsersNewestHoweverManyAnotherOneHas) {
   EXPECT_EQ(shown[19]["what"], "100");
 }
 
+/// A command over DDS, of a client with this number.
+Audit::Entry dds_command(const std::string& what, int number, std::chrono::seconds time) {
+  Audit::Entry entry = numbered(number);
+  entry.time += time;
+  entry.who.clear();
+  entry.from = "over DDS, client " + std::to_string(number);
+  entry.what = what;
+  return entry;
+}
+
+TEST(Audit, CommandsOfOtherInterfacesAreInFilesOfTheirOwnWithAShareForEach) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  audit.note(numbered(0));
+  audit.note_command(dds_command("start", 1, std::chrono::hours(1)), "over DDS");
+  constexpr int kGiven = 100;
+  for (int i = 2; i <= kGiven; ++i) {
+    audit.note_command(dds_command("trigger", i, std::chrono::hours(i)), "over DDS");
+  }
+  EXPECT_EQ(folder.files(), 1) << "commands do not wait for the disk";
+  audit.write_due(Repetitions::Time(std::chrono::seconds(1'800'000'000)));
+  EXPECT_EQ(folder.files(), 2);
+  const json all = entries(audit, 200);
+  ASSERT_EQ(all.size(), Audit::kMostCommandsShown + 1);
+  EXPECT_EQ(all[0]["who"], "kim");
+  EXPECT_EQ(all[1]["what"], "start");
+  EXPECT_EQ(all.back()["from"], "over DDS, client " + std::to_string(kGiven));
+  EXPECT_EQ(entries(Audit(folder.path()), 200), all);
+}
+
+TEST(Audit, CommandsOfOneInterfaceAreOfOneKindWhateverTheNumbersOfTheirClients) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  constexpr int kGiven = 30;
+  for (int i = 0; i < kGiven; ++i) {
+    audit.note_command(dds_command("start", i, std::chrono::seconds(i)), "over DDS");
+  }
+  audit.note_command(dds_command("start", kGiven, std::chrono::seconds(kGiven)), "over Modbus");
+  audit.write_all();
+  const json all = entries(audit);
+  ASSERT_EQ(all.size(), Audit::kFree + 2) << all.dump(1);
+  EXPECT_EQ(all[Audit::kFree]["result"], "done, 10 more");
+  EXPECT_EQ(all.back()["result"], "done");
+}
+
 TEST(Audit, CountsOfANetworkOfIpv6AreOne) {
   const TemporaryFolder folder;
   Audit audit(folder.path());
@@ -145,19 +190,26 @@ TEST(Audit, CountsOfANetworkOfIpv6AreOne) {
   EXPECT_EQ(entries(audit)[1]["result"], "refused, 99 more");
 }
 
-class AuditServed : public AccessServed {
+class ShownAudit : public AccessServed {
  protected:
   void SetUp() override {
     AccessServed::SetUp();
+    add_one_of_each_role();
+  }
+  json shown() const {
+    return json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body)["entries"];
+  }
+};
+
+class AuditServed : public ShownAudit {
+ protected:
+  void SetUp() override {
+    ShownAudit::SetUp();
     handler = [this](const Command& command) {
       giver = command.giver;
       return command.code == CommandCode::Stop ? CommandResult::NotPossible : CommandResult::Done;
     };
-    add_one_of_each_role();
     start();
-  }
-  json shown() const {
-    return json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body)["entries"];
   }
 
   Giver giver;  ///< origin of the newest command; read after its answer
@@ -250,6 +302,27 @@ TEST_F(AuditServed, LoggingOutWithoutASessionIsNoAct) {
   EXPECT_EQ(shown().back()["what"], "logout");
 }
 
+/// Texts of refused requests are the client's: neither their number nor their size fills the file.
+TEST_F(AuditServed, RefusedRequestsOfAViewerPushNothingOut) {
+  ASSERT_EQ(post("/api/v1/create_token", R"({"name":"plc","role":"viewer"})",
+                 by_token(Role::Administrator) + kJsonHeader)
+                .status,
+            200);
+  const std::string viewer = by_token(Role::Viewer) + kJsonHeader;
+  for (int i = 0; i < 60; ++i) {
+    const std::string event(60'000, "abc"[i % 3]);
+    const std::string body = json{{"event", event}, {"format", "csv"}}.dump();
+    ASSERT_EQ(post("/api/v1/export_recording", body, viewer).status, 404) << "no recorder";
+  }
+  const json all = shown();
+  ASSERT_EQ(all.size(), 1 + Audit::kFree + 1);
+  EXPECT_EQ(all[0]["what"], "create_token");
+  EXPECT_EQ(all[1]["after"], std::string(100, 'a') + " csv");
+  EXPECT_EQ(all.back()["result"], "refused, 40 more");
+  EXPECT_LT(std::filesystem::file_size(folder / "audit.jsonl"), 100'000U);
+  EXPECT_FALSE(std::filesystem::exists(folder / "audit.1.jsonl"));
+}
+
 /// Changes of different users are recorded separately, however many there are.
 TEST_F(AuditServed, EveryUserThatIsAddedIsNoted) {
   const std::string admin = by_token(Role::Administrator) + kJsonHeader;
@@ -259,6 +332,82 @@ TEST_F(AuditServed, EveryUserThatIsAddedIsNoted) {
     ASSERT_EQ(post("/api/v1/create_token", token.dump(), admin).status, 200);
   }
   EXPECT_EQ(shown().size(), static_cast<std::size_t>(kAdded));
+}
+
+/// A sink beside interfaces without accounts, whose commands pass through the same record.
+class OtherInterfaces : public ShownAudit {
+ protected:
+  void start_beside() {
+    WebContext context = make_context();
+    context.state_folder = state_folder;
+    context.commands.record = record;
+    context.commands.handler = [](const Command&) { return CommandResult::Done; };
+    serve(context);
+  }
+  void give(const CommandId& id, const Command& command,
+            CommandResult result = CommandResult::Done) const {
+    EXPECT_EQ(record->carry_out(id, command, [result](const Command&) { return result; }), result);
+  }
+
+  const std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>();
+};
+
+TEST_F(OtherInterfaces, EachCommandIsNotedOnceWithItsInterface) {
+  start_beside();
+  const Giver plc("over Modbus");
+  give({kPlcClient, 7}, {CommandCode::SelectRecipe, {2}, plc});
+  give({4711, 1}, {CommandCode::Stop, {}, Giver("over DDS")}, CommandResult::NotPossible);
+  give({kPlcClient, 8}, {static_cast<CommandCode>(999), {}, plc}, CommandResult::UnknownCommand);
+  ASSERT_EQ(post("/api/v1/command/start", "{}", by_token(Role::Operator) + kJsonHeader).status,
+            200);
+  give({kPlcClient, 9}, {CommandCode::Trigger, {}, plc});
+  json all;
+  ASSERT_TRUE(eventually([&] {
+    all = shown();
+    return !all.empty() && all.back()["what"] == "trigger";
+  })) << all.dump(1);
+  ASSERT_EQ(all.size(), 5U) << all.dump(1);
+  const auto expect = [&](std::size_t i, const char* who, const char* from, const char* what,
+                          const char* after, const char* result) {
+    EXPECT_EQ(all[i]["who"], who) << all[i];
+    EXPECT_EQ(all[i]["from"], from) << all[i];
+    EXPECT_EQ(all[i]["what"], what) << all[i];
+    EXPECT_EQ(all[i]["before"], "") << all[i];
+    EXPECT_EQ(all[i]["after"], after) << all[i];
+    EXPECT_EQ(all[i]["result"], result) << all[i];
+  };
+  expect(0, "", "over Modbus", "select_recipe", R"({"recipe":2})", "done");
+  expect(1, "", "over DDS, client 4711", "stop", "", "not possible with this configuration");
+  expect(2, "", "over Modbus", "unknown command", "999", "unknown command");
+  expect(3, "operator", "127.0.0.1", "start", "", "done");
+  expect(4, "", "over Modbus", "trigger", "", "done");
+}
+
+TEST_F(OtherInterfaces, TheLastCommandsAreNotedWhenTheSinkStops) {
+  start_beside();
+  give({kPlcClient, 7}, {CommandCode::Stop, {}, Giver("over Modbus")});
+  sink->stop();
+  const json all = entries(Audit(state_folder));
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0]["what"], "stop");
+}
+
+TEST_F(OtherInterfaces, CommandsThatCouldNotWaitAreNotedAsANumber) {
+  constexpr std::uint64_t kLost = 44;
+  for (std::uint64_t number = 1; number <= CommandRecord::kMostUnaudited + kLost; ++number) {
+    give({kPlcClient, number}, {CommandCode::Stop, {}, Giver("over Modbus")});
+  }
+  start_beside();
+  json lost;
+  ASSERT_TRUE(eventually([&] {
+    for (const json& entry : shown()) {
+      if (entry["what"] == "unrecorded commands") lost = entry;
+    }
+    return !lost.is_null();
+  }));
+  EXPECT_EQ(lost["before"], "0");
+  EXPECT_EQ(lost["after"], "44");
+  EXPECT_EQ(lost["result"], "too many commands at a time");
 }
 
 }  // namespace
