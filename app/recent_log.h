@@ -39,12 +39,15 @@ class RecentLog {
   };
 
   void add(const LogRecord& record);
+  /// Start of this process's log, from which its lines are counted.
+  std::chrono::system_clock::time_point started() const { return started_; }
   /// Number of the newest line; 0: there is none yet.
   std::uint64_t newest_number() const;
   /// The newest selected lines, oldest first.
   std::vector<Line> newest(const Wanted& wanted) const;
 
  private:
+  const std::chrono::system_clock::time_point started_ = std::chrono::system_clock::now();
   mutable std::mutex mutex_;
   std::deque<Line> lines_;    ///< guarded by mutex_
   std::uint64_t number_ = 0;  ///< number of the newest line; guarded by mutex_

@@ -63,9 +63,8 @@ CommandResult AlignmentDesk::register_to_first(std::size_t camera) {
 }
 
 CommandResult AlignmentDesk::correct(std::size_t camera) {
-  return begin(camera, watch_.is_watched(camera), [this, camera](const auto& rig, const auto&) {
-    return finder_.correct(rig, camera);
-  });
+  return begin(camera, watch_.is_watched(camera),
+               [this, camera](const auto&, const auto&) { return finder_.correct(camera); });
 }
 
 CommandResult AlignmentDesk::mark(std::size_t camera, const optics::Vec3& point) {
@@ -379,9 +378,10 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
       accepted_.is_young(name(camera), kPauseOfCorrections)) {
     return;
   }
-  auto corrected = finder_.correct(site_.rig, camera);
+  auto corrected = finder_.correct(camera);
   if (!corrected) return;
-  if (const auto allowed = check_acceptance_(entry_of(*corrected->proposal)); !allowed) {
+  const CalibrationEntry entry = entry_of(*corrected->proposal);
+  if (const auto allowed = check_acceptance_(entry); !allowed) {
     drifting_since_[camera].reset();  // not each second
     const std::string why = "its drift is not corrected: " + allowed.error().message;
     if (is_new_refusal(camera, why)) log_camera(LogLevel::Warning, name(camera), why);
@@ -391,11 +391,12 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
   {
     const std::lock_guard lock(mutex_);
     if (busy_) return;
+    busy_ = camera;  // nobody adds a step to this one before it is in force
     said = add_step(camera, std::move(*corrected->proposal));
   }
   log_camera(LogLevel::Info, name(camera), said);
   // One that is refused is not found again each second.
-  if (accept(camera) != CommandResult::Done) drifting_since_[camera].reset();
+  if (put_in_force(camera, entry) != CommandResult::Done) drifting_since_[camera].reset();
 }
 
 void AlignmentDesk::report(std::array<CameraWatchStatus, kMaxCameras>& figures) const {

@@ -157,7 +157,7 @@ class AlignmentDesk : public AlignmentSource {
 
   const AlignedSite& site_;
   WatchedCameras& watch_;
-  AcceptedAlignments& accepted_;  ///< used by the caller that has set busy_
+  AcceptedAlignments& accepted_;  ///< changed by the caller that has set busy_
   const std::function<void()> restart_;
   const AcceptanceCheck check_acceptance_;
   AlignmentFinder finder_;

@@ -2,6 +2,7 @@
 #include "app/alignment/alignment_finder.h"
 
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "app/alignment/figure_text.h"
 #include "app/alignment/found_outline.h"
 #include "app/alignment/placement.h"
+#include "app/alignment/reference_sigma.h"
 #include "app/alignment/registration.h"
 #include "app/log.h"
 
@@ -21,6 +23,29 @@ constexpr std::size_t kPicturesOfLight = 8;
 /// Attempts to register: the sparks of one second may be too few.
 constexpr int kAttempts = 3;
 constexpr std::chrono::seconds kPatience{10};
+
+/// The proposal of a drift's correction. Its error is that of the alignment in force and that of
+/// the motion. Unknown for a camera with a lens whose drift has no known cause: the correction
+/// assumes that the ball moved, and the camera may have turned.
+AlignmentProposal drift_proposal(const CameraAlignment& alignment, const optics::RigCamera& camera,
+                                 const align::DriftState& drift) {
+  AlignmentProposal proposal{alignment, "drift",
+                             figure_text("moved by", drift.direction_error, "deg rms") + ", "};
+  if (camera.intrinsics && drift.cause == align::DriftCause::Unknown) {
+    proposal.quality += "sigma unknown: whether the camera or the ball moved is not known";
+    return proposal;
+  }
+  proposal.direction_sigma = std::hypot(drift.direction_sigma, kReferenceSigma);
+  proposal.quality += figure_text("sigma", proposal.direction_sigma, "deg") + ", " +
+                      figure_text("of that", drift.direction_sigma, "deg by the drift");
+  return proposal;
+}
+
+/// Settings of a registration of that camera. Its pose, if it has one, is measured and keeps its
+/// place to the ball; an outline was detected or stated by hand, and is refined.
+RegistrationSettings settings_for(const optics::RigCamera& camera) {
+  return {.outline_sigma = camera.pose ? 0 : kFoundOutlineSigma};
+}
 
 }  // namespace
 
@@ -56,22 +81,19 @@ Result<AlignmentProposal> AlignmentFinder::register_by(
   // Pictures of one frame set have its time.
   const auto pictures = simultaneous(of_first, of_camera, std::chrono::nanoseconds(0));
   if (!pictures) return tl::unexpected(pictures.error());
-  return register_camera(rig, site_.camera_of(rig, 0), site_.camera_of(rig, camera), *pictures, {},
+  const optics::RigCamera& sought = site_.camera_of(rig, camera);
+  return register_camera(rig, site_.camera_of(rig, 0), sought, *pictures, settings_for(sought),
                          progress)
       .map([](const FoundRegistration& found) { return found.proposal; });
 }
 
-Result<Found> AlignmentFinder::correct(const optics::Rig& rig, std::size_t camera) const {
+Result<Found> AlignmentFinder::correct(std::size_t camera) const {
   const auto drift = watch_.drift(camera);
   if (!drift) return fail("no picture was seen yet");
-  return corrected(rig, site_.camera_of(rig, camera), *drift)
-      .map([&](const CameraAlignment& alignment) {
-        return Found{AlignmentProposal{alignment, "drift",
-                                       figure_text("moved by", drift->direction_error, "deg rms") +
-                                           ", " +
-                                           figure_text("sigma", drift->direction_sigma, "deg"),
-                                       drift->direction_sigma}};
-      });
+  const optics::RigCamera& in_force = site_.rig_camera(camera);
+  return corrected(site_.rig, in_force, *drift).map([&](const CameraAlignment& alignment) {
+    return Found{drift_proposal(alignment, in_force, *drift)};
+  });
 }
 
 Result<Found> AlignmentFinder::mark(const optics::Rig& rig, std::size_t camera,

@@ -45,8 +45,9 @@ class AlignmentFinder {
   /// Registration to the first camera; one that is refused is tried again with the next pictures.
   Result<Found> register_to_first(const optics::Rig& rig, std::size_t camera,
                                   const align::WorkProgress& progress) const;
-  /// Alignment that the drift asks for.
-  Result<Found> correct(const optics::Rig& rig, std::size_t camera) const;
+  /// Alignment that the drift asks for: of the camera as it is in force, which the drift is
+  /// measured against, whatever is proposed.
+  Result<Found> correct(std::size_t camera) const;
 
   /// The points with one more, where the ball shows the tool's light now, or at `pixel`.
   Result<Found> mark(const optics::Rig& rig, std::size_t camera, const optics::Vec3& point,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/picture_conversion.h"
+#include "app/pictures/picture_scaler.h"
 #include "app/pipeline/views/still_view.h"
 
 namespace orbwatch::app {
@@ -26,6 +28,19 @@ Result<std::string> encoded(const Picture& picture) {
   return encoder.encode(picture, kQuality).map([](std::span<std::uint8_t> jpeg) {
     return std::string(jpeg.begin(), jpeg.end());
   });
+}
+
+/// A whole picture in the sides that are asked for.
+Result<std::string> whole_jpeg(const Picture& picture, const AlignmentPicture& asked) {
+  if (asked.width == 0 || asked.width >= picture.width) return encoded(picture);
+  const PixelFormat format =
+      info(picture.format).colour == ColourModel::Luminance ? PixelFormat::Grey : PixelFormat::Rgb;
+  std::vector<std::byte> packed(packed_bytes(format, picture.width, picture.height));
+  convert(picture, format, packed.data());
+  PictureScaler scaler;
+  return encoded(scaler.scaled(Picture::contiguous(format, picture.width, picture.height,
+                                                   packed.data(), row_bytes(format, picture.width)),
+                               asked.width, asked.height));
 }
 
 /// Counts of luminance of any depth, row by row.
@@ -53,15 +68,20 @@ std::pair<double, double> range_of(Counts seen) {
   return {low, std::max(percentile(kWhite), low + 1)};
 }
 
-Result<std::string> stretched(const Counts& counts, Counts seen, int width, int height) {
+std::vector<std::uint8_t> stretched(const Counts& counts, Counts seen) {
   const auto [low, high] = range_of(std::move(seen));
   std::vector<std::uint8_t> grey(counts.size());
   std::ranges::transform(counts, grey.begin(), [low = low, high = high](std::uint16_t count) {
     const double share = (count - low) / (high - low);
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
   });
-  return encoded(
-      picture_of(PixelFormat::Grey, ImageView<std::uint8_t>{grey.data(), width, height, 1, width}));
+  return grey;
+}
+
+/// Shares the samples.
+Picture grey_picture(std::vector<std::uint8_t>& grey, int width, int height) {
+  return picture_of(PixelFormat::Grey,
+                    ImageView<std::uint8_t>{grey.data(), width, height, 1, width});
 }
 
 Result<pipeline::StillView> rendered(const Picture& picture, const optics::BallProjection& ball,
@@ -73,12 +93,15 @@ Result<pipeline::StillView> rendered(const Picture& picture, const optics::BallP
 }
 
 Result<std::string> luminance_jpeg(const Picture& picture, const optics::BallProjection& ball,
-                                   const std::optional<optics::ViewSpec>& view) {
+                                   const AlignmentPicture& asked) {
   Counts counts = counts_of(picture);
-  if (!view) return stretched(counts, counts, picture.width, picture.height);
+  if (!asked.view) {
+    auto grey = stretched(counts, counts);
+    return whole_jpeg(grey_picture(grey, picture.width, picture.height), asked);
+  }
   const ImageView<std::uint16_t> samples{counts.data(), picture.width, picture.height, 1,
                                          picture.width};
-  return rendered(picture_of(PixelFormat::Y16, samples), ball, *view, PixelFormat::Y16)
+  return rendered(picture_of(PixelFormat::Y16, samples), ball, *asked.view, PixelFormat::Y16)
       .and_then([](const pipeline::StillView& still) {
         const Counts shown = counts_of(still.picture);
         Counts seen;
@@ -87,23 +110,24 @@ Result<std::string> luminance_jpeg(const Picture& picture, const optics::BallPro
             seen.push_back(shown[n]);
           }
         }
-        return stretched(shown, std::move(seen), still.picture.width, still.picture.height);
+        auto grey = stretched(shown, std::move(seen));
+        return encoded(grey_picture(grey, still.picture.width, still.picture.height));
       });
 }
 
 }  // namespace
 
 Result<std::string> alignment_jpeg(const Picture& picture, const optics::BallProjection& ball,
-                                   const std::optional<optics::ViewSpec>& view) {
+                                   const AlignmentPicture& asked) {
   if (info(picture.format).colour == ColourModel::Luminance) {
-    return luminance_jpeg(picture, ball, view);
+    return luminance_jpeg(picture, ball, asked);
   }
-  if (!view) return encoded(picture);
+  if (!asked.view) return whole_jpeg(picture, asked);
   if (!remap::can_remap(picture.format, PixelFormat::Rgb)) {
     return fail("pictures of format " + std::string(info(picture.format).name) +
                 " are not turned into views");
   }
-  return rendered(picture, ball, *view, PixelFormat::Rgb)
+  return rendered(picture, ball, *asked.view, PixelFormat::Rgb)
       .and_then([](const pipeline::StillView& still) { return encoded(still.picture); });
 }
 

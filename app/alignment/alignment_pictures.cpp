@@ -40,7 +40,7 @@ Result<> AlignmentPictures::request(const AlignmentPicture& picture,
                   " pictures of the camera are asked for already; try again");
     }
     queue.waiting.push_back(
-        {std::move(balls), picture.view, std::move(on_pictures), std::move(is_wanted)});
+        {picture, std::move(balls), std::move(on_pictures), std::move(is_wanted)});
     if (std::exchange(queue.is_served, true)) return {};
   }
   ask(place);
@@ -74,7 +74,7 @@ Result<AlignmentJpegs> AlignmentPictures::made_for(const Wanted& wanted, const R
   if (!pictures) return tl::unexpected(pictures.error());
   AlignmentJpegs jpegs{hal::TimePoint(pictures->front().time), {}};
   for (std::size_t n = 0; n < pictures->size(); ++n) {
-    auto file = alignment_jpeg((*pictures)[n].picture, wanted.balls[n], wanted.view);
+    auto file = alignment_jpeg((*pictures)[n].picture, wanted.balls[n], wanted.picture);
     if (!file) return tl::unexpected(file.error());
     jpegs.files.push_back(std::move(*file));
   }

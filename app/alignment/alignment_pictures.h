@@ -34,8 +34,8 @@ class AlignmentPictures {
  private:
   using Recorded = Result<std::vector<RecordedPicture>>;  ///< of the cameras of a queue
   struct Wanted {
+    AlignmentPicture picture;
     std::vector<optics::BallProjection> balls;
-    std::optional<optics::ViewSpec> view;
     AlignmentSource::OnPictures on_pictures;
     AlignmentSource::IsWanted is_wanted;
   };

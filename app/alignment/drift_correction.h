@@ -11,8 +11,9 @@
 namespace orbwatch::app {
 
 /// The alignment that a camera has after its drift: one that turned about its own centre looks
-/// elsewhere, else the ball is elsewhere in its picture. Reentrant. Error: nothing was measured,
-/// the zero is being learnt; those of align::by_outline.
+/// elsewhere, else the ball is elsewhere in its picture, and a camera whose picture rolled is
+/// rolled about the line to the ball. `rig`: the one in force, which the drift is measured against.
+/// Reentrant. Error: nothing was measured, the zero is being learnt; those of align::by_outline.
 Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamera& camera,
                                   const align::DriftState& drift);
 

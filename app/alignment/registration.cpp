@@ -6,16 +6,10 @@
 #include <utility>
 
 #include "app/alignment/figure_text.h"
+#include "app/alignment/reference_sigma.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
-namespace {
-
-/// Standard error, degrees, of the directions of the first camera, which a registered one has, too.
-/// It is that of a placement by seven points; accepted alignments do not record their own.
-constexpr double kReferenceSigma = 0.3;
-
-}  // namespace
 
 Result<align::SimultaneousPictures> simultaneous(std::span<const RecordedPicture> reference,
                                                  std::span<const RecordedPicture> camera,

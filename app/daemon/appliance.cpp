@@ -12,11 +12,8 @@
 #include "app/alignment/work_distance.h"
 #include "app/daemon/site/assumptions.h"
 #include "app/daemon/site/build.h"
-#include "app/daemon/site/cameras.h"
-#include "app/daemon/site/site_plan.h"
 #include "app/health/board_health.h"
 #include "app/log.h"
-#include "hal/thread/scheduling.h"
 #include "proc/remap/remap.h"
 
 namespace orbwatch::app::daemon {
@@ -81,7 +78,8 @@ Appliance::Appliance(const files::Resolved& site)
       background_(std::make_shared<hal::SharedThreads>(
           hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
           static_cast<std::size_t>(site.site.threads.background))),
-      health_(health_of(site.site, record_), HealthSampler::kPeriod, background_),
+      health_(health_of(site.site, record_), HealthSampler::kPeriod,
+              hal::SharedThreads::alone("health")),
       machine_(site.site.machine),
       lines_(open_lines(site.site)) {}
 
@@ -103,45 +101,61 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const files::Resolved& site, 
   const hal::ThreadGrants grants = hal::schedule_threads(site.site.threads);
   for (const std::string& refusal : grants.refusals) log_line(LogLevel::Warning, refusal);
   std::unique_ptr<Appliance> made(new Appliance(site));
-  Appliance& all = *made;
   auto simulated = simulation::Machine::make(site.site.simulation, hal::Clock::now());
   if (!simulated) return tl::unexpected(simulated.error());
   OpenedCameras opened = open_cameras(site, *simulated);
   const auto planned = SitePlan::make(site, opened.formats);
   if (!planned) return tl::unexpected(planned.error());
-  auto plan = build(site, *planned);
+  auto plan = made->pipeline_plan(*planned, std::move(opened), std::move(*simulated));
   if (!plan) return tl::unexpected(plan.error());
-  add_cameras(*plan, std::move(opened), site, *all.lines_);
-  all.follow_machine(*plan, std::move(*simulated));
-  if (site.site.machine.source == MachineSource::Recording) {
-    auto recording = replayed_recording(site);
-    if (!recording) return tl::unexpected(recording.error());
-    all.follow_recording(*plan, std::move(*recording));
-  }
-  plan->background = all.background_;
-  // It must not delay the pictures that somebody waits for.
-  all.watch_.emplace(all.aligned_, site.state_folder, hal::SharedThreads::alone("watch"));
-  all.alignment_.emplace(all.aligned_, *all.watch_, all.accepted_, restart.request,
-                         std::move(check_acceptance));
-  all.assumptions_ = daemon::assumptions(site, *planned);
-  const auto carry_out = [&all](const Command& command) {
-    return dispatch(command, *all.receivers_);
-  };
-  all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.machine_.path(),
-                          all.background_, &*all.alignment_, std::move(program));
-  plan->surroundings = [&all, grants, trial_end = restart.trial_end](hal::TimePoint now) {
-    return pipeline::Surroundings{all.health_.latest(now),    all.lines_->faults(),
-                                  all.interfaces_->faults(),  grants.realtime,
-                                  grants.memory_locked,       all.watched(),
-                                  all.configuration_refused_, seconds_until(trial_end(), now)};
-  };
-  all.absent_ = plan->absent;
-  for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
-  all.pipeline_.emplace(std::move(*plan));
-  all.receivers_.emplace(Receivers{
-      *all.pipeline_, *all.lines_, all.interfaces_->find<SnapshotSink>(),
-      all.interfaces_->find<RecorderSink>(), *all.watch_, *all.alignment_, std::move(restart)});
+  made->add_clients(*planned, restart, std::move(check_acceptance), std::move(program));
+  made->add_pipeline(std::move(*plan), grants, std::move(restart));
   return made;
+}
+
+Result<pipeline::PipelinePlan> Appliance::pipeline_plan(
+    const SitePlan& planned, OpenedCameras opened,
+    std::shared_ptr<const simulation::Machine> simulated) {
+  auto plan = build(site_, planned);
+  if (!plan) return plan;
+  add_cameras(*plan, std::move(opened), site_, *lines_);
+  plan->background = background_;
+  follow_machine(*plan, std::move(simulated));
+  if (site_.site.machine.source == MachineSource::Recording) {
+    auto recording = replayed_recording(site_);
+    if (!recording) return tl::unexpected(recording.error());
+    follow_recording(*plan, std::move(*recording));
+  }
+  return plan;
+}
+
+/// Watch, alignment and interfaces. Their commands arrive when the pipeline is there.
+void Appliance::add_clients(const SitePlan& planned, const Restart& restart,
+                            AcceptanceCheck check_acceptance, Program program) {
+  // It must not delay the pictures that somebody waits for.
+  watch_.emplace(aligned_, site_.state_folder, hal::SharedThreads::alone("watch"));
+  alignment_.emplace(aligned_, *watch_, accepted_, restart.request, std::move(check_acceptance));
+  assumptions_ = daemon::assumptions(site_, planned);
+  const auto carry_out = [this](const Command& command) { return dispatch(command, *receivers_); };
+  interfaces_.emplace(site_, planned, CommandPath{carry_out, record_}, machine_.path(), background_,
+                      &*alignment_, std::move(program));
+}
+
+/// The pipeline, and the receivers of commands.
+void Appliance::add_pipeline(pipeline::PipelinePlan plan, const hal::ThreadGrants& grants,
+                             Restart restart) {
+  plan.surroundings = [this, grants, trial_end = restart.trial_end](hal::TimePoint now) {
+    return pipeline::Surroundings{health_.latest(now),    lines_->faults(),
+                                  interfaces_->faults(),  grants.realtime,
+                                  grants.memory_locked,   watched(),
+                                  configuration_refused_, seconds_until(trial_end(), now)};
+  };
+  absent_ = plan.absent;
+  for (const auto& camera : plan.cameras) cameras_.push_back(camera.get());
+  pipeline_.emplace(std::move(plan));
+  receivers_.emplace(Receivers{*pipeline_, *lines_, interfaces_->find<SnapshotSink>(),
+                               interfaces_->find<RecorderSink>(), *watch_, *alignment_,
+                               std::move(restart)});
 }
 
 void Appliance::follow_machine(pipeline::PipelinePlan& plan,
@@ -163,9 +177,12 @@ void Appliance::follow_recording(pipeline::PipelinePlan& plan, std::filesystem::
   };
 }
 
-/// The recipe as if it was commanded again. Measuring is stopped already.
-void Appliance::restore(const Selection& selection) {
+/// Selects recipe and state stopped as before a restart of this program, as if they were commanded
+/// again.
+void Appliance::restore() {
+  const Selection selection = record_->selection();
   if (selection.stopped) {
+    pipeline_->stop_measuring();
     log_line(LogLevel::Info, "measuring stays stopped, as before the restart");
   }
   if (selection.recipe == 0) return;
@@ -186,6 +203,7 @@ std::array<CameraWatchStatus, kMaxCameras> Appliance::watched() const {
 
 Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   const auto now = hal::Clock::now();
+  restore();  // before a client can give a newer command, and before anything is measured
   attempts_.add(
       "lines", [this] { return lines_->start(); }, now);
   interfaces_->start(attempts_, now);
@@ -196,21 +214,26 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   health_.start();
   if (controller_) controller_->start();
   alignment_->start();
-  std::vector<Sink*> sinks = interfaces_->sinks();
-  sinks.insert(sinks.begin(), lines_.get());
-  sinks.push_back(&*watch_);
-  sinks.insert(sinks.end(), watchers.begin(), watchers.end());
-  // A process stopped before a restart of this program must not be measured for a moment.
-  const Selection selection = record_->selection();
-  if (selection.stopped) pipeline_->stop_measuring();
-  if (auto started = pipeline_->start(sinks); !started) return started;
-  restore(selection);
+  if (auto started = start_pipeline(watchers); !started) return started;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!absent_[i]) continue;
     attempts_.add_camera(
         site_.site.cameras[i].name,
-        [this, i] { return take_up(site_, i, *cameras_[i], *pipeline_); }, now);
+        [this, i] { return reconnect(site_, i, *cameras_[i], *pipeline_); }, now);
   }
+  log_start();
+  return {};
+}
+
+Result<> Appliance::start_pipeline(const std::vector<Sink*>& watchers) {
+  std::vector<Sink*> sinks = interfaces_->sinks();
+  sinks.insert(sinks.begin(), lines_.get());
+  sinks.push_back(&*watch_);
+  sinks.insert(sinks.end(), watchers.begin(), watchers.end());
+  return pipeline_->start(sinks);
+}
+
+void Appliance::log_start() const {
   log_line(LogLevel::Info, "runs with " + std::to_string(site_.names.cameras.size()) +
                                " cameras, " + std::to_string(site_.names.views.size()) +
                                " views and " + std::to_string(site_.recipes.size()) +
@@ -224,7 +247,6 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
              {.camera = camera});
   }
   log_line(LogLevel::Info, commanders_text(site_.site.sinks));
-  return {};
 }
 
 }  // namespace orbwatch::app::daemon

@@ -14,7 +14,9 @@
 #include "app/daemon/dispatch.h"
 #include "app/daemon/process/attempts.h"
 #include "app/daemon/recorded_machine.h"
+#include "app/daemon/site/cameras.h"
 #include "app/daemon/site/interfaces.h"
+#include "app/daemon/site/site_plan.h"
 #include "app/files/resolve.h"
 #include "app/health/health_sampler.h"
 #include "app/machine/machine_follower.h"
@@ -25,6 +27,7 @@
 #include "app/simulation/simulated_controller.h"
 #include "app/state/command_record.h"
 #include "app/watch/camera_watch.h"
+#include "hal/thread/scheduling.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app::daemon {
@@ -70,11 +73,19 @@ class Appliance {
 
  private:
   explicit Appliance(const files::Resolved& site);
+  Result<pipeline::PipelinePlan> pipeline_plan(
+      const SitePlan& planned, OpenedCameras opened,
+      std::shared_ptr<const simulation::Machine> simulated);
+  void add_clients(const SitePlan& planned, const Restart& restart,
+                   AcceptanceCheck check_acceptance, Program program);
+  void add_pipeline(pipeline::PipelinePlan plan, const hal::ThreadGrants& grants, Restart restart);
   std::array<CameraWatchStatus, kMaxCameras> watched() const;
   void follow_machine(pipeline::PipelinePlan& plan,
                       std::shared_ptr<const simulation::Machine> simulated);
   void follow_recording(pipeline::PipelinePlan& plan, std::filesystem::path recording);
-  void restore(const Selection& selection);
+  Result<> start_pipeline(const std::vector<Sink*>& watchers);
+  void restore();
+  void log_start() const;
 
   const files::Resolved& site_;
   const AlignedSite aligned_;

@@ -123,11 +123,13 @@ void visit_trigger(Visitor& v, CameraSettings& camera) {
       "trigger_mode", camera.trigger.mode, kTriggerModes,
       "off: every frame is used; software: each edge requests a frame, from a camera with the "
       "controls TriggerMode and TriggerSoftware or a simulated one; line: the first frame that "
-      "begins after an edge is used, from a camera that receives the edge or runs freely");
+      "begins after an edge, within a second or five periods of its rate, is used, from a camera "
+      "that receives the edge or runs freely");
   v.optional("trigger_source", camera.trigger_source,
-             "Name of a line with use trigger_in; or software: only the command trigger triggers");
+             "Name of a line with use trigger_in; or software: only the command trigger triggers; "
+             "the same for all triggered cameras");
   v.optional("trigger_activation", camera.trigger.activation, kTriggerActivations,
-             "Edges of the line that trigger");
+             "Edges of the line that trigger; the same for all triggered cameras");
   v.optional("trigger_delay_us", camera.trigger.delay, Microseconds{Range::between(0, 1e7)},
              "Delay from the edge to the exposure, us");
   const bool triggered = camera.trigger.mode != hal::TriggerMode::Off;
@@ -156,7 +158,7 @@ void visit(Visitor& v, CameraSettings& camera) {
              "if count 0 is 0 degC");
   v.require(camera.radiometry.kelvin_offset == 0 || camera.radiometry.kelvin_per_count > 0,
             "kelvin_offset", "needs kelvin_per_count");
-  v.optional("radiometric", camera.radiometry.says_scale,
+  v.optional("radiometric", camera.radiometry.states_scale,
              "The camera is a genicam thermal camera that reports its scale; kelvin_per_count may "
              "then be omitted");
   v.table("radiometry", camera.radiometry,
@@ -182,6 +184,9 @@ void visit(Visitor& v, CameraSettings& camera) {
                   v4l2->first_row + std::max(camera.stream.height, 1) <= v4l2->frame_height,
               "height", "v4l2's first_row and the height must not exceed frame_height together");
   }
+  const auto* const replay = std::get_if<hal::ReplaySettings>(&camera.back_end);
+  v.require(!replay || !replay->source.empty(), "back_end",
+            "replay's source is empty; it must name pictures, a recording or a video");
   const auto name =
       std::visit([](const auto& settings) { return settings.kName; }, camera.back_end);
   v.require(!facts_of(camera.back_end).needs_size || (camera.stream.width && camera.stream.height),

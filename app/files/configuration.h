@@ -33,6 +33,7 @@ namespace orbwatch::app::files {
 /// app/daemon/site/interfaces.cpp. Beside it stand, for a sink that
 /// - takes commands: commanders(), the clients that may command through it;
 /// - has keys or certificates: check_keys();
+/// - has rules that its visit() does not check: check_settings();
 /// - listens on TCP ports: listening_ports();
 /// - records pictures: check_recorded(), records_pictures();
 /// - serves a page: page_address();

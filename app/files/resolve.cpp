@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "app/files/plain_names.h"
@@ -113,6 +114,7 @@ class Resolver {
 
   void resolve_cameras() {
     resolved_.rig_cameras.clear();
+    const CameraSettings* triggered = nullptr;  // the first triggered camera
     for (const auto& camera : site_.cameras) {
       const auto known = index_of(resolved_.rig.cameras, camera.name);
       if (known) {
@@ -123,9 +125,28 @@ class Resolver {
                             "\"; it has: " + joined_names(resolved_.rig.cameras));
       }
       resolved_.rig_cameras.push_back(known.value_or(0));
-      if (camera.trigger_source.empty() || camera.trigger_source == kSoftwareSource) continue;
-      check_trigger_line(camera.line, "camera.trigger_source", camera.trigger_source);
+      if (camera.trigger_source.empty()) continue;
+      if (camera.trigger_source != kSoftwareSource) {
+        check_trigger_line(camera.line, "camera.trigger_source", camera.trigger_source);
+      }
+      if (!triggered) triggered = &camera;
+      check_same_triggers(camera, *triggered, camera.line);
     }
+  }
+
+  /// Refuses other triggers than the first triggered camera's: frames are joined by the trigger's
+  /// number, and every camera counts its own.
+  void check_same_triggers(const CameraSettings& camera, const CameraSettings& first, int line) {
+    const auto check = [&](const char* key, std::string_view own, std::string_view others) {
+      if (own == others) return;
+      finding_.refuse(line, key,
+                      "\"" + std::string(own) + "\", but camera \"" + first.name + "\" has \"" +
+                          std::string(others) +
+                          "\"; it must be the same for all triggered cameras");
+    };
+    check("camera.trigger_source", camera.trigger_source, first.trigger_source);
+    check("camera.trigger_activation", word_for(kTriggerActivations, camera.trigger.activation),
+          word_for(kTriggerActivations, first.trigger.activation));
   }
 
   void check_size(const CameraSettings& camera, const optics::RigCamera& known, int line) {

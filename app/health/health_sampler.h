@@ -14,7 +14,8 @@
 
 namespace orbwatch::app {
 
-/// Reads the health on a shared thread, so that a slow board or disk does not delay the frame path.
+/// Reads the health on a thread, so that a slow board or disk does not delay the frame path. The
+/// thread should not be shared with other work: the disk of a network mount may not answer.
 /// Thread rule: start and stop on the main thread, latest on any.
 class HealthSampler {
  public:

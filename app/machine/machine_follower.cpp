@@ -26,28 +26,39 @@ optics::Vec3 turned(optics::Vec3 v, const MachineValues& angles) {
   return v;
 }
 
+/// The sum of the coordinates by their weights; unknown only if one that counts is, because axes
+/// that a controller does not have are unknown.
+double weighted(const optics::Vec3& weights, const optics::Vec3& v) {
+  const auto term = [](double weight, double value) {
+    constexpr double kRounding = 1e-12;  // of the cosine of a right angle
+    return std::abs(weight) < kRounding ? 0 : weight * value;
+  };
+  return term(weights.x, v.x) + term(weights.y, v.y) + term(weights.z, v.z);
+}
+
 }  // namespace
 
 MachineFollower::MachineFollower(const MachineSettings& settings)
     : settings_(settings),
       rotation_(
           optics::rotation({settings.rotation[0], settings.rotation[1], settings.rotation[2]})),
-      track_(settings.timeout) {
+      track_(settings.timeout, settings.delay) {
   if (settings_.source != MachineSource::None) set_unknown(MachineQuality::NoState, status_);
 }
 
 MachinePath MachineFollower::path() {
   return {settings_.source,
-          [this](const MachineState& state) { return take(state, hal::Clock::now()); }};
+          [this](const MachineState& state) { return take(state, hal::Clock::now()); },
+          [this](const Error& error) { refuse(error, hal::Clock::now()); }};
 }
 
 TimedState MachineFollower::in_machine_frame(const MachineState& state) const {
   TimedState placed{{}, state.part, state.values, {}};
   MachineValues& v = placed.values;
-  const optics::Vec3 position = rotation_ * optics::Vec3{v.x, v.y, v.z} + settings_.origin;
-  v.x = position.x;
-  v.y = position.y;
-  v.z = position.z;
+  const optics::Vec3 position{v.x, v.y, v.z};
+  v.x = weighted(rotation_.row0, position) + settings_.origin.x;
+  v.y = weighted(rotation_.row1, position) + settings_.origin.y;
+  v.z = weighted(rotation_.row2, position) + settings_.origin.z;
   const optics::Vec3 axis = settings_.tool_axis * (1 / optics::norm(settings_.tool_axis));
   placed.tool = rotation_ * turned(axis, state.values);
   return placed;
@@ -59,15 +70,36 @@ Result<> MachineFollower::take(const MachineState& state, hal::TimePoint arrival
     refuse(checked.error(), arrival);
     return checked;
   }
-  TimedState placed = in_machine_frame(state);
-  const std::lock_guard lock(mutex_);
-  if (state.sequence && state.sequence == sequence_) return {};
-  sequence_ = state.sequence;
-  ++states_;
-  const bool has_clock = signals::is_valid(state.clock);
-  placed.moment = (has_clock ? clock_.moment_of(state.clock, arrival) : arrival) - settings_.delay;
-  track_.add(placed);
+  const TimedState placed = in_machine_frame(state);
+  {
+    const std::lock_guard lock(mutex_);
+    if (state.sequence && state.sequence == sequence_) return {};
+    sequence_ = state.sequence;
+    ++states_;
+    add(state, placed, arrival);
+  }
+  say_clock(arrival);
   return {};
+}
+
+void MachineFollower::add(const MachineState& state, TimedState placed, hal::TimePoint arrival) {
+  const bool has_clock = signals::is_valid(state.clock);
+  const auto moment = has_clock ? clock_.moment_of(state.clock, arrival) : arrival;
+  if (!moment) return;
+  placed.moment = *moment - settings_.delay;
+  track_.add(placed);
+}
+
+void MachineFollower::say_clock(hal::TimePoint now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!clock_.stands(now) || now < next_clock_log_) return;
+    next_clock_log_ = now + std::chrono::hours(1);
+  }
+  log_soon(LogLevel::Warning,
+           {"machine: the controller's clock does not advance, or in steps of more than 50 ms; its "
+            "states count at their arrival. A controller without a clock sends none: over DDS NaN, "
+            "over Modbus 4294967295"});
 }
 
 void MachineFollower::refuse(const Error& error, hal::TimePoint now) {
@@ -100,12 +132,19 @@ const MachineStatus& MachineFollower::keep(hal::TimePoint now) {
   const MachineQuality before = status_.quality;
   {
     const std::lock_guard lock(mutex_);
-    if (states_ > 0 && track_.is_silent(now)) set_unknown(MachineQuality::Stale, status_);
+    if (states_ > 0) update_fault(now);
     status_.states = states_;
     status_.refused = refused_;
   }
   say_quality(before);
   return status_;
+}
+
+void MachineFollower::update_fault(hal::TimePoint now) {
+  if (track_.is_silent(now)) return set_unknown(MachineQuality::Stale, status_);
+  if (!is_fault(status_.quality)) return;
+  track_.report(now, status_);
+  set_unknown(status_.quality, status_);  // values at `now` are not those of the last exposure
 }
 
 void MachineFollower::say_quality(MachineQuality before) const {

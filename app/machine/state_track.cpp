@@ -89,7 +89,7 @@ const TimedState* StateTrack::after(hal::TimePoint moment) const {
 }
 
 bool StateTrack::is_silent(hal::TimePoint now) const {
-  return size_ == 0 || now - at(size_ - 1).moment > timeout_;
+  return size_ == 0 || now - at(size_ - 1).moment > silence_;
 }
 
 void StateTrack::report(hal::TimePoint moment, MachineStatus& machine) const {
@@ -98,8 +98,9 @@ void StateTrack::report(hal::TimePoint moment, MachineStatus& machine) const {
   if (count == 0) return set_unknown(MachineQuality::NoState, machine);
   const TimedState& before = at(count - 1);
   const bool has_after = count < size_;
-  const hal::TimePoint until = has_after ? at(count).moment : moment;
-  if (until - before.moment > timeout_) return set_unknown(MachineQuality::Stale, machine);
+  const bool is_stale =
+      has_after ? at(count).moment - before.moment > timeout_ : moment - before.moment > silence_;
+  if (is_stale) return set_unknown(MachineQuality::Stale, machine);
   machine.quality = has_after ? MachineQuality::Good : MachineQuality::Predicted;
   machine.part = before.part;
   if (has_after) return set_motion(before, at(count), moment, machine);

@@ -25,15 +25,16 @@ class StateTrack {
   /// States kept: two seconds of a controller that sends 250 a second.
   static constexpr std::size_t kCapacity = 512;
 
-  /// `timeout`: the longest time between two states, or after the last one, for which values are
-  /// known.
-  explicit StateTrack(hal::Clock::duration timeout) : timeout_(timeout), states_(kCapacity) {}
+  /// `timeout`: the longest time between two states, or after the arrival of the last one, for
+  /// which values are known. `delay`: from a state's moment to its arrival.
+  explicit StateTrack(hal::Clock::duration timeout, hal::Clock::duration delay = {})
+      : timeout_(timeout), silence_(timeout + delay), states_(kCapacity) {}
 
   /// Adds the newest state. Kept states that are later, whose moments were estimated too late, are
   /// discarded.
   void add(const TimedState& state);
 
-  /// True: no state for longer than the timeout before `now`, or none at all.
+  /// True: no state arrived within the timeout before `now`, or none at all.
   bool is_silent(hal::TimePoint now) const;
 
   /// Sets quality, state, part, values and motion at `moment`; what is not known is not valid.
@@ -50,7 +51,8 @@ class StateTrack {
   const TimedState& at(std::size_t n) const { return states_[(first_ + n) % kCapacity]; }
 
   const hal::Clock::duration timeout_;
-  std::vector<TimedState> states_;  ///< ring
+  const hal::Clock::duration silence_;  ///< from the last state's moment until it is too old
+  std::vector<TimedState> states_;      ///< ring
   std::size_t first_ = 0;
   std::size_t size_ = 0;
 };

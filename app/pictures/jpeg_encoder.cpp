@@ -71,4 +71,10 @@ Result<std::span<std::uint8_t>> JpegEncoder::encode(const Picture& picture, int 
   return std::span(jpeg_.data(), size);
 }
 
+Result<std::span<std::uint8_t>> JpegEncoder::encode(const Picture& picture, JpegQuality& quality) {
+  auto jpeg = encode(picture, quality.current());
+  while (jpeg && quality.adapt(jpeg->size())) jpeg = encode(picture, quality.current());
+  return jpeg;
+}
+
 }  // namespace orbwatch::app

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "app/pictures/jpeg_quality.h"
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
 
@@ -22,6 +23,8 @@ class JpegEncoder {
   /// Returns the picture as JPEG, valid until the next call. `quality` is 1 to 100. The upper 8
   /// bits of 16 bit luminance are kept. Error: out of memory.
   Result<std::span<std::uint8_t>> encode(const Picture& picture, int quality);
+  /// The same with the adapted quality of a stream, again with a lower one if it is too large.
+  Result<std::span<std::uint8_t>> encode(const Picture& picture, JpegQuality& quality);
 
  private:
   struct Close {

@@ -100,14 +100,25 @@ std::chrono::nanoseconds CameraGroup::capture_time() const {
 
 void CameraGroup::miss(std::size_t camera, hal::Fault fault) {
   members_[camera].fault = fault;
+  abandon(camera);
+}
+
+/// Drops the waiting frames of a camera that does not deliver, and counts its triggers as missed.
+void CameraGroup::abandon(std::size_t camera) {
   sync_.clear(camera);
+  if (const auto& trigger = members_[camera].trigger) trigger->abandon();
 }
 
 Result<> CameraGroup::admit(std::size_t camera, const hal::StreamFormat& format) {
   const std::lock_guard lock(setting_);
   if (auto done = set(camera); !done) return done;
   Member& member = members_[camera];
+  const auto scale = member.camera->count_scale();
+  if (scale && format.kelvin_per_count > 0 && scale->kelvin_per_count != format.kelvin_per_count) {
+    return fail("the recipe's controls change what a count means: " + scale->stated_by);
+  }
   member.format = format;
+  abandon(camera);
   auto started = start(camera);
   member.absent = !started;
   return started;
@@ -163,7 +174,7 @@ void CameraGroup::watch_controls(Member& member, const hal::FrameMetadata& metad
   if (is_overdue && !member.is_otherwise) {
     log_soon(LogLevel::Warning,
              {member.camera->info().id, ": its ", metadata.not_as_set,
-              " is another than was set; choose a value that it takes"},
+              " differs from its setting; set a value that the camera supports"},
              {.camera = member.name, .trigger = metadata.trigger.value_or(0)});
   }
   member.is_otherwise = is_overdue;
@@ -174,10 +185,7 @@ void CameraGroup::on_fault(std::size_t index, const hal::FaultReport& report) {
   const hal::Fault before = member.fault.exchange(report.fault);
   if (before == report.fault) return;
   const bool is_cleared = report.fault == hal::Fault::None;
-  if (!is_cleared) {
-    sync_.clear(index);
-    if (member.trigger) member.trigger->abandon();
-  }
+  if (!is_cleared) abandon(index);
   const bool has_detail = !report.detail.empty();
   log_soon(is_cleared ? LogLevel::Info : LogLevel::Warning,
            {member.camera->info().id, ": ", operator_text(report.fault), has_detail ? " (" : "",

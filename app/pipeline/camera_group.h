@@ -68,12 +68,12 @@ class CameraGroup {
   /// Sets the fault of an absent camera.
   void miss(std::size_t camera, hal::Fault fault);
   /// Starts an absent camera, configured to `format`, with the controls that were applied last. It
-  /// stays absent on error: it refuses one of them.
+  /// stays absent on error: it refuses one of them, or they change what a count means.
   Result<> admit(std::size_t camera, const hal::StreamFormat& format);
 
   /// Sets the controls of a recipe; may wait for the cameras. After a refusal the others are still
   /// set, since a return to the previous recipe must set as many as possible; returns the first
-  /// error. An absent camera gets them when it is admitted.
+  /// error. An absent camera gets them when it is admitted, an unplugged one when it reconnects.
   Result<> apply(std::uint16_t recipe, const std::vector<CameraControl>& controls);
 
   /// Fills in `status.cameras`; rates and latencies only with `elapsed`, the time since the last
@@ -98,6 +98,7 @@ class CameraGroup {
 
   Result<> start(std::size_t index);
   Result<> set(std::size_t index);
+  void abandon(std::size_t camera);
   void on_frame(std::size_t index, hal::Frame frame);
   static void watch_controls(Member& member, const hal::FrameMetadata& metadata);
   void on_fault(std::size_t index, const hal::FaultReport& report);

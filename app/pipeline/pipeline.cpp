@@ -11,8 +11,12 @@
 namespace orbwatch::app::pipeline {
 namespace {
 
-/// Period of the status without frames: the PLC's heartbeat.
-constexpr std::chrono::milliseconds kHeartbeatPeriod{100};
+/// Longest time from one status to the next: the PLC's heartbeat. Ten per second are promised; the
+/// rest is for a processor that is busy.
+constexpr std::chrono::milliseconds kHeartbeatPeriod{90};
+/// Age of the newest status at which another one precedes the next picture, which may take as long
+/// again.
+constexpr std::chrono::milliseconds kPictureHeartbeat = kHeartbeatPeriod / 2;
 
 /// Number of workers: with the pipeline's own thread they use all reserved cores, or leave one core
 /// to sinks, drivers and other programs.
@@ -92,10 +96,14 @@ Result<> Pipeline::start(std::vector<Sink*> sinks) {
   std::vector<ViewBuffers::Views> measured;
   if (measurement_) measured = measurement_->planned_views();
   buffers_.emplace(plan_.views, measured, kept);
-  last_roll_ = hal::Clock::now();
+  last_status_ = last_roll_ = hal::Clock::now();
   thread_.start("pipeline", hal::ThreadRole::Pipeline, [this] { run(); });
   auto started = cameras_.start();
-  if (!started) stop();
+  if (!started) {
+    stop();
+  } else if (measurement_) {
+    measurement_->start();
+  }
   return started;
 }
 
@@ -110,7 +118,7 @@ void Pipeline::run() {
   const std::stop_callback end_wait(thread_.stop_token(), [this] { cameras_.close(); });
   stages_.begin();
   while (true) {
-    const auto set = cameras_.next(hal::Clock::now() + kHeartbeatPeriod);
+    const auto set = cameras_.next(last_status_ + kHeartbeatPeriod);
     if (thread_.stop_requested()) return;
     exchange();
     if (set) {
@@ -152,6 +160,9 @@ void Pipeline::exchange() {
   std::swap(pyramids_, exchange_->pyramids);
   std::swap(exposures_, exchange_->exposures);
   std::swap(plan_.formats, exchange_->recompiled.formats);
+  for (Sink* sink : sinks_) {
+    for (std::size_t i = 0; i < plan_.formats.size(); ++i) sink->accept_format(i, plan_.formats[i]);
+  }
   if (measurement_) measurement_->exchange(exchange_->recompiled.recipes);
   exchange_->is_in_use = true;
 }
@@ -184,6 +195,7 @@ void Pipeline::process(const hal::FrameSet& set) {
 
 /// Applies commands, which take effect here, between two sets.
 void Pipeline::apply_commands(const hal::FrameSet& set) {
+  status_.selected_view = selected_view_;
   if (measurement_) measurement_->apply_commands(set.stamp);
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     pan_tilt_zoom_.exchange(i, displays_[i].renderer());
@@ -224,6 +236,12 @@ void Pipeline::show(const hal::FrameSet& set) {
     publish(view);
   }
   show_displays(set, is_due);
+}
+
+/// Publishes a status between two pictures, if one is due. It is one more of the same set: alarms
+/// and figures are the present ones, measurement, recipe and selected view stay.
+void Pipeline::keep_heartbeat() {
+  if (hal::Clock::now() - last_status_ >= kPictureHeartbeat) publish_status();
 }
 
 /// Renders the display views, beginning with the one whose turn it is, until the next set arrives:
@@ -271,6 +289,7 @@ void Pipeline::ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp) {
 
 /// Replaces process() when there is no set.
 void Pipeline::idle() {
+  status_.selected_view = selected_view_;
   if (measurement_) {
     measurement_->apply_commands(hal::Clock::now());
     measurement_->idle(cameras_.faulty() + cameras_.late() == cameras_.size());
@@ -284,13 +303,14 @@ void Pipeline::idle() {
 void Pipeline::publish(ViewChannel& channel) {
   const std::size_t index = channel.plan().index;
   const ViewPtr view = channel.take();
-  if (!view) {
+  if (view) {
+    for (Sink* sink : sinks_) sink->accept(view);
+    ++status_.views[index].published;
+    view_meters_[index].add(hal::Clock::now() - view->stamp);
+  } else {
     ++status_.views[index].skipped;
-    return;
   }
-  for (Sink* sink : sinks_) sink->accept(view);
-  ++status_.views[index].published;
-  view_meters_[index].add(hal::Clock::now() - view->stamp);
+  keep_heartbeat();
   stages_.end(Stage::Publication);
 }
 
@@ -317,6 +337,7 @@ void Pipeline::end_set(hal::Clock::duration spent) {
 /// Steps the alarms, whose notices precede the status that shows them, and publishes the status.
 void Pipeline::publish_status() {
   const auto now = hal::Clock::now();
+  last_status_ = now;
   if (measurement_) {
     measurement_->watch(now, [this](AlarmNotice notice) {
       notice.part = status_.machine.part;
@@ -327,7 +348,6 @@ void Pipeline::publish_status() {
   }
   ++status_.heartbeat;
   status_.state = state();
-  status_.selected_view = selected_view_;
   report_process_inputs();
   status_.overruns = budget_.overruns();
   if (plan_.surroundings) {

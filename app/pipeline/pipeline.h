@@ -35,6 +35,7 @@
 #include "hal/lines/frame_trigger.h"
 #include "hal/lines/process_input.h"
 #include "hal/sync/frame_sync.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/shared_threads.h"
 #include "hal/thread/thread.h"
 
@@ -87,7 +88,8 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  /// The sinks belong to the caller, are started, and outlive the run.
+  /// The sinks belong to the caller, are started, and outlive the run. The cameras are set to a
+  /// recipe that was selected before once they have been started.
   Result<> start(std::vector<Sink*> sinks);
   void stop();
 
@@ -159,6 +161,7 @@ class Pipeline {
   void measure(const hal::FrameSet& set);
   void show(const hal::FrameSet& set);
   void show_displays(const hal::FrameSet& set, bool are_due);
+  void keep_heartbeat();
   std::span<ViewChannel> measured();
   void idle();
   void match_exposures(const hal::FrameSet& set);
@@ -177,8 +180,8 @@ class Pipeline {
   PipelinePlan plan_;
   std::vector<hal::StreamFormat> formats_;  ///< copy for the main thread
   std::vector<ViewPlan> views_;             ///< all views, by index; used by the main thread only
-  std::mutex exchanging_;
-  std::condition_variable exchanged_;
+  hal::PriorityMutex exchanging_;
+  std::condition_variable_any exchanged_;
   Exchange* exchange_ = nullptr;  ///< pending or in use; guarded by exchanging_
   CameraGroup cameras_;
   WorkerPool workers_;
@@ -199,6 +202,7 @@ class Pipeline {
   Status status_;
   hal::Clock::duration largest_skew_{0};  ///< largest skew since last_roll_
   hal::TimePoint last_roll_;
+  hal::TimePoint last_status_;  ///< time of the newest status
   std::vector<Sink*> sinks_;
   hal::Thread thread_;
 };

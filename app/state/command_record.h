@@ -2,15 +2,18 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "app/model/command/command.h"
 #include "app/state/slot_file.h"
+#include "hal/thread/bounded_queue.h"
 
 namespace orbwatch::app {
 
@@ -34,6 +37,14 @@ struct Selection {
   bool operator==(const Selection&) const = default;
 };
 
+/// An answered command that waits for the audit.
+struct UnauditedCommand {
+  std::chrono::system_clock::time_point time{};  ///< of the result
+  CommandId id;
+  Command command;  ///< with its giver
+  CommandResult result = CommandResult::Done;
+};
+
 /// The newest command of each client, kept on the disk: recorded before it is executed, and with
 /// its result before the answer. So a command is executed at most once, whatever ends the process.
 /// A command during which the process ended reads Interrupted. Without a usable folder, or with a
@@ -46,13 +57,19 @@ struct Selection {
 /// stopped measuring. After a crash or a power cut, and when the service is started, they are not
 /// restored: a recipe that crashes the process must not crash each run after it, and the machine
 /// may have been set up for another part. The state process active is never kept: only a client
-/// that observes the process may set it. Thread-safe. carry_out waits for the disk, twice, and for
-/// the handler in between.
+/// that observes the process may set it.
+///
+/// Answered commands wait in memory for the audit, which another port writes, if there is one. A
+/// command never waits for it: those beyond kMostUnaudited are only counted, and a crash loses
+/// those that wait. Thread-safe. carry_out waits for the disk, twice, and for the handler in
+/// between.
 class CommandRecord {
  public:
   /// Limit of clients; a further one replaces the client that has been silent longest, never the
   /// PLC.
   static constexpr std::size_t kMaxClients = 256;
+  /// Limit of commands that wait for the audit; enough while its disk is busy for some seconds.
+  static constexpr std::size_t kMostUnaudited = 256;
 
   struct Entry {
     CommandId id;
@@ -78,9 +95,20 @@ class CommandRecord {
   Selection selection() const;
 
   /// Executes a command that the caller found to be new, by entries() and by the commands that it
-  /// passed since.
+  /// passed since. Afterwards it waits for the audit, also if it was not carried out.
   CommandResult carry_out(const CommandId& id, const Command& command,
                           const CommandHandler& handler);
+
+  /// Like carry_out(), for a caller that audits the command: it does not wait for the audit.
+  CommandResult carry_out_audited(const CommandId& id, const Command& command,
+                                  const CommandHandler& handler);
+
+  /// Removes and returns the oldest command that waits for the audit; nullopt: none waits. Does not
+  /// wait for the disk.
+  std::optional<UnauditedCommand> take_unaudited() { return unaudited_.try_take(); }
+
+  /// Number of commands that the audit misses, because kMostUnaudited waited already.
+  std::uint64_t lost_unaudited() const { return unaudited_.drops(); }
 
  private:
   bool begin(const CommandId& id, CommandCode code);
@@ -97,6 +125,7 @@ class CommandRecord {
   bool knows_plc_ = true;     ///< entries_ is complete for the PLC
   bool knows_others_ = true;  ///< entries_ is complete for the other clients
   std::atomic<bool> is_kept_{false};
+  hal::BoundedQueue<UnauditedCommand, kMostUnaudited> unaudited_;
 };
 
 }  // namespace orbwatch::app

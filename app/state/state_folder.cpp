@@ -50,12 +50,12 @@ bool is_owned_by(const fs::path& folder, const fs::path& configuration) {
   return owner && is_same(*owner, configuration);
 }
 
-/// Name of the state folder of the unit that runs this configuration file.
-std::string name_for(const fs::path& configuration) {
+/// The service's name for this configuration file: a second machine's has its own behind `mark`.
+std::string name_for(const fs::path& configuration, const char* mark) {
   const fs::path folder = configuration.parent_path();
   const bool is_instance =
       configuration.filename() == "site.toml" && folder.parent_path() == "/etc/orbwatch";
-  return std::string(kService) + (is_instance ? "-" + folder.filename().string() : "");
+  return std::string(kService) + (is_instance ? mark + folder.filename().string() : "");
 }
 
 /// State folders of all machines on this board, sorted.
@@ -96,13 +96,15 @@ std::optional<fs::path> state_directory() { return first_folder("STATE_DIRECTORY
 
 std::optional<fs::path> runtime_directory() { return first_folder("RUNTIME_DIRECTORY"); }
 
+std::string unit_of(const fs::path& configuration) { return name_for(in_full(configuration), "@"); }
+
 Result<fs::path> state_folder(const fs::path& configured, const fs::path& configuration,
                               const fs::path& lib) {
   if (!configured.empty()) return configured;
   const fs::path own = in_full(configuration);
   const std::vector<fs::path> owned = folders_of(own, lib);
   if (const auto given = state_directory()) return check_owner(*given, own, owned);
-  const fs::path usual = lib / name_for(own);
+  const fs::path usual = lib / name_for(own, "-");
   if (owned.empty() || std::ranges::count(owned, usual) > 0) return check_owner(usual, own, owned);
   if (owned.size() == 1) return owned.front();
   std::string text = own.string() + ": several state folders exist; set before the command";

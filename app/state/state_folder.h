@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
@@ -22,6 +23,10 @@ std::optional<std::filesystem::path> state_directory();
 /// First folder of systemd's RUNTIME_DIRECTORY, which is empty after the board's start and usable
 /// when the disk is full; nullopt: not set or empty. Not while the environment is changed.
 std::optional<std::filesystem::path> runtime_directory();
+
+/// systemd's unit that runs the configuration file `configuration`, see platform/service:
+/// orbwatch@NAME for /etc/orbwatch/NAME/site.toml, orbwatch for any other file. Reentrant.
+std::string unit_of(const std::filesystem::path& configuration);
 
 /// State folder of the configuration file `configuration`, the same for orbwatchd and for programs:
 /// 1. `configured`, unless it is empty;

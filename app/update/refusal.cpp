@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/update/refusal.h"
 
-#include <cstring>
+#include <algorithm>
 
 namespace orbwatch::app::update {
+namespace {
 
-int compare_versions(const std::string& a, const std::string& b) {
-  return ::strverscmp(a.c_str(), b.c_str());
+/// Takes the part up to the next dot off, without its leading zeros.
+std::string_view take_part(std::string_view& version) {
+  std::string_view part = version.substr(0, version.find('.'));
+  version.remove_prefix(std::min(part.size() + 1, version.size()));
+  part.remove_prefix(std::min(part.find_first_not_of('0'), part.size()));
+  return part;
+}
+
+}  // namespace
+
+int compare_versions(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    const std::string_view one = take_part(a), other = take_part(b);
+    if (one.size() != other.size()) return one.size() < other.size() ? -1 : 1;
+    if (const int order = one.compare(other); order != 0) return order;
+  }
+  return static_cast<int>(b.empty()) - static_cast<int>(a.empty());
 }
 
 std::optional<std::string> refusal_of(const Offer& offer) {

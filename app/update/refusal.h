@@ -7,9 +7,10 @@
 
 namespace orbwatch::app::update {
 
-/// Version of an image or an update, such as "1.10", as `platform/build-bundle` writes it.
-/// Negative: `a` is older than `b`, 0: the same. Reentrant.
-int compare_versions(const std::string& a, const std::string& b);
+/// Compares versions of images or updates, numbers with dots such as "1.10" as
+/// `platform/build-bundle` writes them: part by part as numbers, so that 2.01 is 2.1; a part that
+/// is missing is smaller than any. Negative: `a` is older than `b`, 0: the same. Reentrant.
+int compare_versions(std::string_view a, std::string_view b);
 
 /// An update, and the device that is to install it.
 struct Offer {

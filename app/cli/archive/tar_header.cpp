@@ -15,12 +15,15 @@
 namespace orbwatch::app::cli {
 namespace {
 
-constexpr std::uint64_t kMostSize = (std::uint64_t{1} << 33) - 1;  ///< 11 octal digits
-constexpr std::string_view kMagic("ustar\00000", 8);               // and the version
+constexpr std::uint64_t kMostOctalSize = (std::uint64_t{1} << 33) - 1;  ///< 11 digits
+constexpr std::uint64_t kMostSize = (std::uint64_t{1} << 63) - 1;       ///< largest size of a file
+constexpr unsigned char kBinary = 0x80;  ///< first byte of a number that is not octal text
+constexpr std::string_view kMagic("ustar\00000", 8);  // and the version
 constexpr char kRegular = '0', kRegularOfOld = '\0';
 constexpr mode_t kPermissions = 07777;
 
-/// Numbers are octal text, texts end with a zero unless they fill their field.
+/// Numbers are octal text, texts end with a zero unless they fill their field. A larger size is a
+/// binary number, as GNU tar, bsdtar and star write it.
 struct TarHeader {
   std::array<char, 100> name{};
   std::array<char, 8> mode{};
@@ -66,6 +69,30 @@ std::optional<std::uint64_t> number_in(const std::array<char, N>& field) {
   return number;
 }
 
+using SizeField = decltype(TarHeader::size);
+
+void put_size(SizeField& field, std::uint64_t size) {
+  if (size <= kMostOctalSize) {
+    put_number(field, size);
+    return;
+  }
+  for (std::size_t i = field.size(); i-- > 0; size >>= 8) field[i] = static_cast<char>(size);
+  field.front() = static_cast<char>(kBinary);
+}
+
+/// Nullopt: neither octal digits between spaces nor a binary number up to kMostSize.
+std::optional<std::uint64_t> size_in(const SizeField& field) {
+  std::optional<std::uint64_t> size = number_in(field);
+  if (static_cast<unsigned char>(field.front()) == kBinary) {
+    size = 0;
+    for (const char byte : std::span(field).subspan(1)) {
+      if (*size > kMostSize >> 8) return std::nullopt;
+      *size = *size << 8 | static_cast<unsigned char>(byte);
+    }
+  }
+  return size && *size <= kMostSize ? size : std::nullopt;
+}
+
 template <std::size_t N>
 std::string_view text_in(const std::array<char, N>& field) {
   const std::string_view all(field.data(), N);
@@ -99,12 +126,12 @@ Result<std::string> tar_header(const TarEntry& entry, std::chrono::sys_seconds m
   TarHeader header;
   if (auto named = check_archived_name(entry.name); !named) return tl::unexpected(named.error());
   if (!put_name(header, entry.name)) return fail(entry.name + ": the name is too long");
-  if (entry.size > kMostSize) return fail(entry.name + ": is larger than 8 GiB");
+  if (entry.size > kMostSize) return fail(entry.name + ": is too large");
   std::ranges::copy(kMagic, header.magic.begin());
   put_number(header.mode, entry.mode & kPermissions);
   put_number(header.user, 0);
   put_number(header.group, 0);
-  put_number(header.size, entry.size);
+  put_size(header.size, entry.size);
   put_number(header.time, static_cast<std::uint64_t>(
                               std::max<std::int64_t>(made.time_since_epoch().count(), 0)));
   put_number(header.device_major, 0);
@@ -128,7 +155,7 @@ Result<TarEntry> parse_tar_header(std::string_view block) {
   if (header.type != kRegular && header.type != kRegularOfOld) {
     return fail(name + ": is not a regular file");
   }
-  const auto mode = number_in(header.mode), size = number_in(header.size);
+  const auto mode = number_in(header.mode), size = size_in(header.size);
   if (!mode || !size) return fail(name + ": mode or size is damaged");
   return TarEntry{std::move(name), *size, static_cast<mode_t>(*mode) & kPermissions};
 }

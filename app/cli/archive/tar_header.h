@@ -11,7 +11,8 @@
 
 #include "proc/image/result.h"
 
-/// Headers of the entries in an archive of the format ustar (POSIX.1-1988). All reentrant.
+/// Headers of the entries in an archive of the format ustar (POSIX.1-1988); a file of 8 GiB or more
+/// has its size as GNU tar writes it. All reentrant.
 namespace orbwatch::app::cli {
 
 /// Archives consist of blocks of this size, bytes.

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <memory>
@@ -25,6 +26,14 @@ constexpr const char* kSealedName = "secrets.sealed";
 
 std::chrono::sys_seconds now() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+/// The bytes of the sealed secrets. Former versions sealed with the byte order mark of a passphrase
+/// file; it is tried second.
+Result<std::string> unsealed(const ReadBackup& read, std::string_view passphrase) {
+  auto bytes = unseal(read.sealed, passphrase, read.manifest_text);
+  if (bytes) return bytes;
+  return unseal(read.sealed, "\xEF\xBB\xBF" + std::string(passphrase), read.manifest_text);
 }
 
 /// The error of errno.
@@ -53,6 +62,15 @@ Result<> check_file(const ArchivedFile& file, const ManifestFile& stated) {
   return fail("is damaged: " + file.name + " is not the file that was backed up");
 }
 
+/// Error of a backup that no device would read.
+tl::unexpected<Error> too_large(const Archive& archive) {
+  const auto largest = std::ranges::max_element(
+      archive, {}, [](const ArchivedFile& file) { return file.bytes.size(); });
+  return fail("the files are more than " + std::to_string(kMostBytes >> 20) +
+              " MiB; remove large ones that are not part of the configuration, first " +
+              largest->name);
+}
+
 /// The files between the manifest and the sealed ones.
 Result<Archive> checked_files(Archive archive, const Manifest& manifest) {
   if (archive.size() != manifest.files.size())
@@ -79,7 +97,10 @@ Result<std::string> backup_bytes(Backup backup, std::string_view passphrase) {
     if (!sealed) return sealed;
     archive.push_back({kSealedName, std::move(*sealed)});
   }
-  return tar_of(archive, now()).and_then([](const std::string& tar) { return compressed(tar); });
+  const auto tar = tar_of(archive, now());
+  if (!tar) return tar;
+  if (tar->size() > kMostBytes) return too_large(archive);
+  return compressed(*tar);
 }
 
 Result<FrameReader> open_frames(const std::filesystem::path& file) {
@@ -136,9 +157,7 @@ Result<ReadBackup> parse_backup_tar(std::string_view tar) {
 
 Result<> open_secrets(ReadBackup& read, std::string_view passphrase) {
   auto archive =
-      unseal(read.sealed, passphrase, read.manifest_text).and_then([](const std::string& tar) {
-        return parse_tar(tar);
-      });
+      unsealed(read, passphrase).and_then([](const std::string& tar) { return parse_tar(tar); });
   if (!archive) return tl::unexpected(archive.error());
   const auto& names = read.backup.manifest.secret_files;
   bool is_right = archive->size() == names.size();

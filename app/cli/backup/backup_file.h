@@ -27,7 +27,7 @@ struct Backup {
 };
 
 /// The bytes of a backup, without its events, with encrypted secrets, or without them if the
-/// passphrase is empty. Errors: a name that does not fit; out of memory.
+/// passphrase is empty. Errors: a name that does not fit; more than kMostBytes; out of memory.
 Result<std::string> backup_bytes(Backup backup, std::string_view passphrase);
 
 /// A backup as it was read.
@@ -47,7 +47,8 @@ Result<ReadBackup> read_backup(FrameReader& frames);
 /// The same for the unpacked tar.
 Result<ReadBackup> parse_backup_tar(std::string_view tar);
 
-/// Decrypts the secrets. Errors: a wrong passphrase, changed bytes; as read_backup().
+/// Decrypts the secrets, also those that a former version sealed with the byte order mark of a
+/// passphrase file. Errors: a wrong passphrase, changed bytes; as read_backup().
 Result<> open_secrets(ReadBackup& read, std::string_view passphrase);
 
 }  // namespace orbwatch::app::cli::backup

@@ -17,11 +17,21 @@ Result<std::string> read(const std::filesystem::path& file, Ask ask) {
     if (::isatty(STDIN_FILENO) != 0) return ask("Passphrase of the backup");
     return fail("there is no terminal to ask for the passphrase; pass --passphrase-file FILE");
   }
-  return hal::read_regular_file(file).map(
-      [](const std::string& text) { return text.substr(0, text.find_first_of("\r\n")); });
+  return hal::read_regular_file(file).map(passphrase_in);
 }
 
 }  // namespace
+
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
+std::string passphrase_in(std::string_view text) {
+  const std::string_view all = without_mark(text);
+  return std::string(all.substr(0, all.find_first_of("\r\n")));
+}
 
 Result<std::string> new_passphrase(const std::filesystem::path& file) {
   auto typed = read(file, ask_new_secret);

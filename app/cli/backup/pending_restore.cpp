@@ -94,7 +94,7 @@ Result<std::string> complete_pending(const fs::path& config) {
   if (!places) return tl::unexpected(places.error());
   std::error_code none;
   if (!fs::exists(fs::symlink_status(pending_file(*places), none))) return text;
-  const auto reserved = exclude_daemon(*places);
+  const auto reserved = exclude_daemon(config, *places);
   if (!reserved) return tl::unexpected(reserved.error());
   DiskChanges disk;
   const auto placed = place_pending(*places, disk);

@@ -2,6 +2,7 @@
 #include "app/cli/backup/placement.h"
 
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include "app/cli/archive/tar.h"
 #include "app/cli/backup/backup_file.h"
 #include "hal/atomic_file.h"
+#include "hal/made_folder.h"
 #include "hal/regular_file.h"
 #include "hal/thread/file_descriptor.h"
 
@@ -23,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t kPermissions = 07777;
-constexpr mode_t kModes = 0777;  // without set-user-ID, set-group-ID and sticky bits
+constexpr mode_t kOthers = 0077;  // permissions of others than the owner
 /// Most bytes of the undo file.
 constexpr std::size_t kMostKept = 2 * kMostBytes;
 /// Entry of the undo file with the names of files that did not exist, each with a line's end.
@@ -66,6 +68,27 @@ Result<std::optional<ArchivedFile>> present(const SitePlaces& places, const std:
   return ArchivedFile{name, std::move(*bytes), about.st_mode & kPermissions};
 }
 
+/// Error: the folder of the file, or the one in which it is going to be made, cannot be written.
+Result<> check_writable(const fs::path& file) {
+  fs::path folder = file.parent_path();
+  std::error_code none;
+  while (!fs::exists(folder, none) && folder.has_relative_path()) folder = folder.parent_path();
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  const std::string name = folder.string();
+  return fail(
+      name + ": its files cannot be replaced (" + std::system_category().message(errno) +
+      "); run the command by sudo, or give the folder to the service: sudo chgrp orbwatch " + name +
+      "; sudo chmod 2775 " + name);
+}
+
+/// Error: the file cannot become `wanted`, or, if that is nullopt, cannot be removed.
+Result<> check_change(const SitePlaces& places, const std::string& name,
+                      const std::optional<ArchivedFile>& wanted) {
+  const auto old = present(places, name);
+  if (!old) return tl::unexpected(old.error());
+  return *old == wanted ? Result<>() : check_writable(places.at(name));
+}
+
 /// The files that are going to be replaced or removed, and the names of those that do not exist.
 Result<Archive> kept_files(const SitePlaces& places, const std::vector<std::string>& names) {
   Archive kept{{kAbsent, ""}};
@@ -81,19 +104,49 @@ Result<Archive> kept_files(const SitePlaces& places, const std::vector<std::stri
   return kept;
 }
 
+/// User of orbwatchd: the owner of its state folder, or, if root has made that before the first
+/// start, the user of the unit.
+uid_t user_of_service(const SitePlaces& places) {
+  struct stat state {};
+  if (::stat(places.state.c_str(), &state) == 0 && state.st_uid != 0) return state.st_uid;
+  const struct passwd* const user = ::getpwnam("orbwatch");
+  return user != nullptr ? user->pw_uid : 0;
+}
+
+/// Gives a file that only root could read to orbwatchd: the folders of the configuration, whose
+/// owner a new file gets, belong to root.
+Result<> give_to_service(const SitePlaces& places, const fs::path& file) {
+  if (::geteuid() != 0) return {};
+  const hal::FileDescriptor opened = hal::open_no_link(file);
+  struct stat about {};
+  if (!opened.is_open() || ::fstat(opened.get(), &about) != 0) return cannot(file, "read");
+  if (about.st_uid != 0 || (about.st_mode & kOthers) != 0) return {};
+  const bool is_given = ::fchown(opened.get(), user_of_service(places), about.st_gid) == 0 &&
+                        ::fsync(opened.get()) == 0;
+  if (!is_given) return cannot(file, "given to orbwatchd");
+  return {};
+}
+
+/// Leaves the bytes of files that are right: their folder need not be writable.
 Result<> write_files(const SitePlaces& places, const Archive& files, DiskChanges& disk) {
   for (const ArchivedFile& file : files) {
     if (auto right = check_folders(places, file.name); !right) return right;
     const fs::path path = places.at(file.name);
-    auto written = make_folders(path.parent_path(), disk).and_then([&] {
-      return disk.write(path, file.bytes, file.mode);
-    });
+    const auto old = present(places, file.name);
+    Result<> written;
+    if (!old || *old != file) {
+      written = make_folders(path.parent_path(), disk).and_then([&] {
+        return disk.write(path, file.bytes, file.mode);
+      });
+    }
+    if (written) written = give_to_service(places, path);
     if (!written) return written;
   }
   return {};
 }
 
-/// Removes a file, and folders that are empty without it.
+/// Removes a file, and folders that are empty without it. One above which nothing may be removed
+/// stays: empty, it does no harm.
 Result<> remove_file(const SitePlaces& places, const std::string& name, DiskChanges& disk) {
   if (auto right = check_folders(places, name); !right) return right;
   fs::path path = places.at(name);
@@ -103,7 +156,7 @@ Result<> remove_file(const SitePlaces& places, const std::string& name, DiskChan
     std::error_code absent;
     const bool is_empty = fs::is_empty(path, absent);
     if (absent) continue;
-    if (!is_empty) break;
+    if (!is_empty || ::access(path.parent_path().c_str(), W_OK | X_OK) != 0) break;
     if (auto removed = disk.remove(path); !removed) return removed;
   }
   return {};
@@ -154,29 +207,7 @@ Result<> DiskChanges::remove(const fs::path& path) {
   return hal::sync_folder(path.parent_path());
 }
 
-Result<> DiskChanges::make_folder(const fs::path& folder) {
-  struct stat above {};
-  if (::stat(folder.parent_path().c_str(), &above) != 0) return cannot(folder, "made");
-  // The kernel passes the set-group-ID bit on, which the service may not set itself.
-  const mode_t mask = ::umask(0);
-  const int made = ::mkdir(folder.c_str(), above.st_mode & kModes);
-  ::umask(mask);
-  if (made != 0) return cannot(folder, "made");
-  // A user who may write above could put a link in its place meanwhile.
-  const hal::FileDescriptor opened(
-      ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-  struct stat about {};
-  const bool is_ours =
-      opened.is_open() && ::fstat(opened.get(), &about) == 0 && about.st_uid == ::geteuid();
-  const bool is_given =
-      is_ours && (::geteuid() != 0 || ::fchown(opened.get(), above.st_uid, above.st_gid) == 0);
-  const mode_t mode = above.st_mode & (kModes | S_ISGID);
-  const bool is_right = is_given && (about.st_mode & kPermissions) == mode;
-  if (!is_given || (!is_right && ::fchmod(opened.get(), mode) != 0)) {
-    return cannot(folder, "given its owner");
-  }
-  return hal::sync_folder(folder.parent_path());
-}
+Result<> DiskChanges::make_folder(const fs::path& folder) { return hal::make_folder(folder); }
 
 Result<> make_folders(const fs::path& folder, DiskChanges& disk) {
   std::error_code error;
@@ -185,10 +216,22 @@ Result<> make_folders(const fs::path& folder, DiskChanges& disk) {
   return disk.make_folder(folder);
 }
 
+Result<> check_replaceable(const SitePlaces& places, const Archive& files,
+                           const std::vector<std::string>& removed) {
+  for (const ArchivedFile& file : files) {
+    if (auto right = check_change(places, file.name, file); !right) return right;
+  }
+  for (const std::string& name : removed) {
+    if (auto right = check_change(places, name, std::nullopt); !right) return right;
+  }
+  return {};
+}
+
 fs::path undo_file(const SitePlaces& places) { return places.state / "restore-undo.tar"; }
 
 Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk,
                        const std::vector<std::string>& removed) {
+  if (auto right = check_replaceable(places, files, removed); !right) return right;
   std::vector<std::string> names = removed;
   for (const ArchivedFile& file : files) names.push_back(file.name);
   const auto kept = kept_files(places, names);

@@ -43,11 +43,17 @@ class DiskChanges {
 /// Makes a folder and the missing ones above it.
 Result<> make_folders(const std::filesystem::path& folder, DiskChanges& disk);
 
+/// Checks what replace_files() is going to do, without doing it. Errors: a link or a folder is in
+/// the way of a file; a folder of one that would change cannot be written by this user.
+Result<> check_replaceable(const SitePlaces& places, const Archive& files,
+                           const std::vector<std::string>& removed = {});
+
 std::filesystem::path undo_file(const SitePlaces& places);
 
-/// Writes the files and removes those named `removed`; names are those of check_place(). Errors: a
-/// link or a folder is in the way, and as the disk has them; nothing is changed then, unless the
-/// message says that undo_unfinished() must be repeated.
+/// Writes the files that differ, and removes those named `removed`; names are those of
+/// check_place(). Written by root, a file that only its owner may read belongs to the user of
+/// orbwatchd, not to root. Errors: as check_replaceable(), and as the disk has them; nothing is
+/// changed then, unless the message says that undo_unfinished() must be repeated.
 Result<> replace_files(const SitePlaces& places, const Archive& files, DiskChanges& disk,
                        const std::vector<std::string>& removed = {});
 

@@ -18,6 +18,7 @@
 #include "app/files/resolve.h"
 #include "app/files/runtime/calibration_file.h"
 #include "app/files/runtime/site_file.h"
+#include "app/state/state_folder.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -29,8 +30,9 @@ constexpr const char* kResetUsage =
     "Puts the delivered configuration back and removes all other files of the configuration,\n"
     "alignments, users, certificates, keys and histories; all of it or, after a failure or a "
     "power\n"
-    "cut, nothing. Recordings and pictures stay. The service must be stopped meanwhile: systemctl\n"
-    "stop orbwatch. `orbwatch backup` keeps what was there.\n\n";
+    "cut, nothing. Recordings and pictures stay. The service must be stopped meanwhile:\n"
+    "systemctl stop orbwatch, or orbwatch@NAME with --config /etc/orbwatch/NAME/site.toml.\n"
+    "`orbwatch backup` keeps what was there.\n\n";
 
 struct ResetOptions {
   fs::path config;
@@ -76,8 +78,10 @@ Result<std::vector<std::string>> removed_names(const fs::path& config,
   return names;
 }
 
-/// Replaces the files, now or at the start of orbwatchd. Returns a line about it.
-Result<std::string> reset_files(const ResetOptions& o, const backup::Restoration& restoration,
+/// Replaces the files of the site `config`, now or at the start of orbwatchd. Returns a line about
+/// it.
+Result<std::string> reset_files(const ResetOptions& o, const fs::path& config,
+                                const backup::Restoration& restoration,
                                 const std::vector<std::string>& removed) {
   backup::DiskChanges disk;
   if (o.at_start) {
@@ -87,10 +91,10 @@ Result<std::string> reset_files(const ResetOptions& o, const backup::Restoration
     return keep_pending(restoration.places, restoration.files, {names.begin(), names.end()}, disk)
         .map([] { return std::string("reset when orbwatchd starts next\n"); });
   }
-  const auto reserved = backup::exclude_daemon(restoration.places);
+  const auto reserved = backup::exclude_daemon(config, restoration.places);
   if (!reserved) return tl::unexpected(reserved.error());
-  return replace_files(restoration.places, restoration.files, disk, removed).map([] {
-    return std::string("reset; start it: systemctl start orbwatch\n");
+  return replace_files(restoration.places, restoration.files, disk, removed).map([&] {
+    return "reset; start it: systemctl start " + unit_of(config) + "\n";
   });
 }
 
@@ -106,12 +110,15 @@ CliResult<std::string> reset(const ResetOptions& o) {
   if (!restoration) return fail(o.delivered.string() + ": " + restoration.error().message);
   const auto removed = removed_names(config, *restoration);
   if (!removed) return tl::unexpected(removed.error());
+  const auto replaceable =
+      backup::check_replaceable(restoration->places, restoration->files, *removed);
+  if (!replaceable) return tl::unexpected(replaceable.error());
   std::string text = *undone + changes_text(*restoration);
   for (const std::string& name : *removed) {
     text += "removed  " + restoration->places.at(name).string() + "\n";
   }
   if (o.check) return text;
-  const auto done = reset_files(o, *restoration, *removed);
+  const auto done = reset_files(o, config, *restoration, *removed);
   if (!done) return tl::unexpected(done.error());
   return text + *done;
 }

@@ -14,9 +14,11 @@
 #include "app/cli/backup/restoration.h"
 #include "app/cli/backup/restore_report.h"
 #include "app/cli/backup/service_stop.h"
+#include "app/cli/backup/site_places.h"
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/files/runtime/site_file.h"
+#include "app/state/state_folder.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -31,8 +33,8 @@ constexpr const char* kRestoreUsage =
     "Files that the backup does not have stay. Kept events in it are added to the recordings; "
     "those\n"
     "that are there stay as they are. The service must be stopped meanwhile:\n"
-    "systemctl stop orbwatch. Lists what depends on the device, such as the cameras' serial\n"
-    "numbers.\n\n";
+    "systemctl stop orbwatch, or orbwatch@NAME with --config /etc/orbwatch/NAME/site.toml. Lists\n"
+    "what depends on the device, such as the cameras' serial numbers.\n\n";
 
 struct RestoreOptions {
   fs::path config;
@@ -90,21 +92,23 @@ Result<> restore_events(OpenBackup& opened, const backup::Restoration& restorati
       });
 }
 
-/// Adds the events, and replaces the files, now or at the start of orbwatchd. Returns a line about
-/// it.
-Result<std::string> replaced(const RestoreOptions& o, OpenBackup& opened,
+/// Adds the events, and replaces the files of the site `config`, now or at the start of orbwatchd.
+/// Returns a line about it.
+Result<std::string> replaced(const RestoreOptions& o, const fs::path& config, OpenBackup& opened,
                              const backup::Restoration& restoration) {
   backup::DiskChanges disk;
+  const std::vector<std::string> removed = backup::trial_names();
   if (o.at_start) {
     return restore_events(opened, restoration, disk)
-        .and_then([&] { return keep_pending(restoration.places, restoration.files, {}, disk); })
+        .and_then(
+            [&] { return keep_pending(restoration.places, restoration.files, removed, disk); })
         .map([] { return std::string("restored when orbwatchd starts next\n"); });
   }
-  const auto reserved = backup::exclude_daemon(restoration.places);
+  const auto reserved = backup::exclude_daemon(config, restoration.places);
   if (!reserved) return tl::unexpected(reserved.error());
   return restore_events(opened, restoration, disk)
-      .and_then([&] { return replace_files(restoration.places, restoration.files, disk); })
-      .map([] { return std::string("restored; start it: systemctl start orbwatch\n"); });
+      .and_then([&] { return replace_files(restoration.places, restoration.files, disk, removed); })
+      .map([&] { return "restored; start it: systemctl start " + unit_of(config) + "\n"; });
 }
 
 CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
@@ -117,6 +121,9 @@ CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
   if (!undone) return tl::unexpected(undone.error());
   const auto restoration = backup::restoration_of(backup, config, o.cameras);
   if (!restoration) return fail(file.string() + ": " + backup::shown(restoration.error().message));
+  const auto replaceable =
+      backup::check_replaceable(restoration->places, restoration->files, backup::trial_names());
+  if (!replaceable) return tl::unexpected(replaceable.error());
   const std::string text =
       o.json ? restore_json(backup, *restoration) : *undone + restore_text(backup, *restoration);
   if (o.check) {
@@ -124,9 +131,15 @@ CliResult<std::string> restore(const RestoreOptions& o, const fs::path& file,
     if (!right) return fail(file.string() + ": " + right.error().message);
     return text;
   }
-  const auto done = replaced(o, *opened, *restoration);
+  const auto done = replaced(o, config, *opened, *restoration);
   if (!done) return fail(file.string() + ": " + done.error().message);
   return o.json ? text : text + *done;
+}
+
+/// True: options were given that only a backup has a use for.
+bool is_about_file(const RestoreOptions& o) {
+  return o.check || o.json || o.at_start || o.without_secrets || o.without_events ||
+         !o.cameras.empty() || !o.passphrase_file.empty();
 }
 
 /// All that is done before orbwatchd starts.
@@ -140,7 +153,10 @@ Result<std::string> pending(const fs::path& config) {
 
 CliResult<std::string> run(const RestoreOptions& o, const std::vector<std::string>& words) {
   const std::size_t asked = words.size() + (o.undo ? 1 : 0) + (o.pending ? 1 : 0);
-  if (asked != 1) return usage_error("say FILE, --undo or --pending");
+  if (asked != 1) return usage_error("pass FILE, --undo or --pending");
+  if (words.empty() && is_about_file(o)) {
+    return usage_error("--undo and --pending take --config only");
+  }
   const fs::path config = fs::absolute(files::site_file(o.config)).lexically_normal();
   if (!o.undo && !o.pending) return restore(o, words.front(), config);
   const auto done = o.undo ? backup::undo_interrupted(config) : pending(config);

@@ -9,10 +9,11 @@
 
 namespace orbwatch::app::cli::backup {
 
-Result<hal::FileDescriptor> exclude_daemon(const SitePlaces& places) {
+Result<hal::FileDescriptor> exclude_daemon(const std::filesystem::path& config,
+                                           const SitePlaces& places) {
   auto reserved = reserve(places.state);
   if (reserved) return reserved;
-  return fail("orbwatchd runs; stop it first: systemctl stop orbwatch");
+  return fail("orbwatchd runs; stop it first: systemctl stop " + unit_of(config));
 }
 
 Result<std::string> undo_interrupted(const std::filesystem::path& config) {
@@ -20,7 +21,7 @@ Result<std::string> undo_interrupted(const std::filesystem::path& config) {
   if (!places) return tl::unexpected(places.error());
   std::error_code none;
   if (!std::filesystem::exists(undo_file(*places), none)) return std::string();
-  const auto reserved = exclude_daemon(*places);
+  const auto reserved = exclude_daemon(config, *places);
   if (!reserved) return tl::unexpected(reserved.error());
   DiskChanges disk;
   return undo_unfinished(*places, disk).map([](bool) {

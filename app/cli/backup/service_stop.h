@@ -10,9 +10,10 @@
 
 namespace orbwatch::app::cli::backup {
 
-/// Keeps orbwatchd from running until the descriptor is closed. Error: it runs; the message states
-/// how to stop it.
-Result<hal::FileDescriptor> exclude_daemon(const SitePlaces& places);
+/// Keeps the orbwatchd of the site `config` from running until the descriptor is closed. Error: it
+/// runs; the message states how to stop it.
+Result<hal::FileDescriptor> exclude_daemon(const std::filesystem::path& config,
+                                           const SitePlaces& places);
 
 /// Puts the old files of the site `config` back if replace_files() was interrupted. Returns a line
 /// about it; empty: it was not. Errors: orbwatchd runs; as undo_unfinished().

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/cli/archive/archive.h"
+#include "app/files/runtime/trial.h"
 
 namespace orbwatch::app::cli::backup {
 
@@ -12,12 +13,31 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kSecret{"users.json", "password-is-set",
                                                   "certificate.pem"};
-constexpr std::array<std::string_view, 14> kHistory{
-    "logins.json",       "first-code",          "audit.jsonl",
-    "audit.1.jsonl",     "audit-refused.jsonl", "audit-refused.1.jsonl",
-    "last-good.json",    "alarm-history.json",  "last-good-calibration.json",
-    "trial.json",        "trial-running.json",  "trial-confirmed.json",
-    "trial-report.json", "figure-history"};
+constexpr std::array<std::string_view, 16> kHistory{"logins.json",
+                                                    "first-code",
+                                                    "audit.jsonl",
+                                                    "audit.1.jsonl",
+                                                    "audit-commands.jsonl",
+                                                    "audit-commands.1.jsonl",
+                                                    "audit-refused.jsonl",
+                                                    "audit-refused.1.jsonl",
+                                                    "last-good.json",
+                                                    "alarm-history.json",
+                                                    "last-good-calibration.json",
+                                                    files::kRequestedTrial,
+                                                    files::kRunningTrial,
+                                                    files::kConfirmedTrial,
+                                                    "trial-report.json",
+                                                    "figure-history"};
+
+/// Names of files of the state folder as in a backup.
+template <std::size_t Count>
+std::vector<std::string> names_in_backup(const std::array<std::string_view, Count>& files) {
+  std::vector<std::string> names;
+  names.reserve(Count);
+  for (const std::string_view file : files) names.push_back(std::string(kState).append(file));
+  return names;
+}
 
 }  // namespace
 
@@ -30,11 +50,11 @@ StateUse use_of(std::string_view file) {
   return std::ranges::count(kHistory, file) > 0 ? StateUse::History : StateUse::None;
 }
 
-std::vector<std::string> history_names() {
-  std::vector<std::string> names;
-  names.reserve(kHistory.size());
-  for (const std::string_view file : kHistory) names.push_back(std::string(kState).append(file));
-  return names;
+std::vector<std::string> history_names() { return names_in_backup(kHistory); }
+
+std::vector<std::string> trial_names() {
+  return names_in_backup(
+      std::array{files::kRequestedTrial, files::kRunningTrial, files::kConfirmedTrial});
 }
 
 const std::filesystem::path& SitePlaces::folder_of(const std::string& name) const {

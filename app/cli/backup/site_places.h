@@ -27,6 +27,10 @@ StateUse use_of(std::string_view file);
 /// Names, as in a backup, of the files of the state that a running daemon may write at its end.
 std::vector<std::string> history_names();
 
+/// Names, as in a backup, of the files of a configuration on trial. A restore removes them: a
+/// confirmation that was not completed would overwrite the restored files at the next start.
+std::vector<std::string> trial_names();
+
 /// Folders of a site, and the names of their files here and in a backup.
 struct SitePlaces {
   std::filesystem::path configuration;

@@ -86,7 +86,8 @@ CliResult<std::string> bench_command(const Arguments& arguments) {
        .notes = "\nStop orbwatchd first: it has the cameras. What nobody reads is not encoded: let "
                 "the\ncontroller, or `orbwatch subscribe`, read the topics that it will read. "
                 "With --simulated,\nlines are simulated, Modbus is not served, and the topics "
-                "are those of \"<prefix>_bench\".\n" +
+                "are those of \"<prefix>_bench\". Recordings and snapshots go to a "
+                "temporary\nfolder.\n" +
                 std::string(kJson)},
       [&](const auto&) { return bench(o); });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/bench/bench_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <tuple>
 
 #include "app/cli/bench/bench_sink.h"
 #include "app/daemon/appliance.h"
@@ -87,14 +90,27 @@ double wanted_rate(const files::Resolved& site, const hal::StreamFormat& pacing,
   return pacing.frame_rate > 0 ? pacing.frame_rate : camera.frames_per_second;
 }
 
-/// Folder for the state of the run only: the machine must not remember its results.
+/// Folder beside that of the recordings, so that the run records on the same disk; the system's for
+/// temporary files, perhaps in memory, if there is no recorder or that folder cannot be written.
+std::filesystem::path place_of_run(const files::Resolved& site, std::error_code& error) {
+  const auto& recordings = std::get<RecorderSettings>(site.site.sinks).folder;
+  std::error_code unknown;
+  std::filesystem::path folder = std::filesystem::weakly_canonical(recordings, unknown);
+  if (!folder.has_filename()) folder = folder.parent_path();  // ends with a slash
+  folder = folder.parent_path();
+  const bool is_usable =
+      !recordings.empty() && !unknown && ::access(folder.c_str(), W_OK | X_OK) == 0;
+  return is_usable ? folder : std::filesystem::temp_directory_path(error);
+}
+
+/// Folder for what the run writes: the machine must not remember its results, and its recordings
+/// must not be deleted for those of the run.
 class TemporaryState {
  public:
   explicit TemporaryState(const files::Resolved& site) : site_(site) {
-    std::string name =
-        (std::filesystem::temp_directory_path(error_) / "orbwatch-bench-XXXXXX").string();
+    std::string name = (place_of_run(site, error_) / "orbwatch-bench-XXXXXX").string();
     if (!error_ && ::mkdtemp(name.data()) == nullptr) error_.assign(errno, std::generic_category());
-    if (!error_) site_.state_folder = name;
+    if (!error_) move_to(name);
   }
   TemporaryState(const TemporaryState&) = delete;
   TemporaryState& operator=(const TemporaryState&) = delete;
@@ -105,6 +121,14 @@ class TemporaryState {
   const files::Resolved& site() const { return site_; }
 
  private:
+  void move_to(const std::filesystem::path& folder) {
+    site_.state_folder = folder;
+    auto& recordings = std::get<RecorderSettings>(site_.site.sinks).folder;
+    if (!recordings.empty()) recordings = folder / "recordings";
+    auto& snapshots = std::get<SnapshotSettings>(site_.site.sinks).folder;
+    if (!snapshots.empty()) snapshots = folder / "snapshots";
+  }
+
   std::error_code error_;
   files::Resolved site_;
 };

@@ -33,7 +33,8 @@ bool is_alive(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& patience) {
+Result<> await_trial(const std::filesystem::path& folder, const std::string& unit,
+                     const TrialPatience& patience) {
   Progress progress;
   progress.begin("waiting for orbwatchd");
   const auto is_taken = [&] { return !files::is_trial_requested(folder); };
@@ -41,8 +42,8 @@ Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& p
     if (const auto withdrawn = files::cancel_trial(folder); !withdrawn) return withdrawn;
     return fail(
         "no orbwatchd has taken it up, and the request is withdrawn: see that the service "
-        "runs (systemctl status orbwatch) and keeps its state in " +
-        folder.string());
+        "runs (systemctl status " +
+        unit + ") and keeps its state in " + folder.string());
   }
   Result<std::optional<std::string>> report;
   const auto is_known = [&] {
@@ -54,10 +55,10 @@ Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& p
   const bool is_over = is_fulfilled(patience.started, is_known);
   if (!report) return tl::unexpected(report.error());
   if (!*report) {
-    return fail(is_over ? "it ended before it ran, and the files count again; the log of orbwatchd "
-                          "says why (journalctl -u orbwatch)"
-                        : "orbwatchd has taken it up and does not say that it runs; see its log "
-                          "(journalctl -u orbwatch)");
+    const char* const what =
+        is_over ? "it ended before it ran, and the files count again; the log of orbwatchd says why"
+                : "orbwatchd has taken it up and does not say that it runs; see its log";
+    return fail(std::string(what) + " (journalctl -u " + unit + ")");
   }
   if (!(*report)->empty()) return fail("orbwatchd does not run it: " + **report);
   return {};

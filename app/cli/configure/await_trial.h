@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 
 #include "proc/image/result.h"
 
@@ -16,8 +17,9 @@ struct TrialPatience {
 };
 
 /// Waits until the daemon that has the state folder `folder` runs the trial that was requested
-/// there. Error: the reason why it does not; a request that no daemon accepted is withdrawn.
-/// Reentrant.
-Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& patience = {});
+/// there. Error: the reason why it does not, which may name `unit`, see unit_of(); a request that
+/// no daemon accepted is withdrawn. Reentrant.
+Result<> await_trial(const std::filesystem::path& folder, const std::string& unit,
+                     const TrialPatience& patience = {});
 
 }  // namespace orbwatch::app::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,11 +37,14 @@ constexpr const char* kConfigureUsage =
 struct Options {
   fs::path config;
   std::string named;  ///< option that names it, for follow-up commands; empty: none did
-  int seconds = kUsualTrial;
+  std::optional<int> seconds;
   bool dry_run = false;
   bool confirm = false;
   bool cancel = false;
 };
+
+/// Length of the trial, s.
+int trial_of(const Options& o) { return o.seconds.value_or(kUsualTrial); }
 
 /// The texts by their paths relative to the installed file. Error: one is not in the new one's
 /// folder.
@@ -96,15 +100,16 @@ Result<std::string> try_out(const Options& o, const fs::path& file, const fs::pa
   if (const auto allowed = check_places(*texts, o.config, folder); !allowed) {
     return tl::unexpected(allowed.error());
   }
-  const auto trial = daemon::checked_trial(o.config, *texts, o.seconds);
+  const auto trial = daemon::checked_trial(o.config, *texts, trial_of(o));
   if (!trial) return tl::unexpected(trial.error());
   std::string difference;
   for (const auto& [path, lines] : daemon::differences_from_files(trial->texts))
     difference += lines;
   if (difference.empty()) return "changes nothing\n";
   if (o.dry_run) return difference;
-  return request_trial(folder, *trial).and_then([&] { return await_trial(folder); }).map([&] {
-    return difference + "runs for " + std::to_string(o.seconds) +
+  const auto runs = [&] { return await_trial(folder, unit_of(o.config)); };
+  return request_trial(folder, *trial).and_then(runs).map([&] {
+    return difference + "runs for " + std::to_string(trial_of(o)) +
            " seconds from now on; keep it with: orbwatch configure --confirm" + o.named + "\n";
   });
 }
@@ -122,19 +127,22 @@ CliResult<std::string> run(Options o, const std::vector<std::string>& words) {
   o.config = fs::absolute(files::site_file(o.config)).lexically_normal();
   if (is_named) o.named = " --config " + o.config.string();
   const std::size_t ways = words.size() + (o.confirm ? 1 : 0) + (o.cancel ? 1 : 0);
-  if (ways != 1) return usage_error("say FILE, --confirm or --cancel");
+  if (ways != 1) return usage_error("pass FILE, --confirm or --cancel");
+  if (words.empty() && (o.dry_run || o.seconds)) {
+    return usage_error("--dry-run and --seconds are for FILE");
+  }
   const auto folder = state_folder({}, o.config);
   if (!folder) return tl::unexpected(folder.error());
   if (o.confirm) return confirm(*folder);
   if (o.cancel) return files::cancel_trial(*folder).map([] { return std::string("goes back\n"); });
-  if (o.seconds < kShortestTrial || o.seconds > kLongestTrial) {
-    return usage_error("--seconds is " + std::to_string(o.seconds) +
-                       "; it must be from 10 to 3600");
+  const int seconds = trial_of(o);
+  if (seconds < kShortestTrial || seconds > kLongestTrial) {
+    return usage_error("--seconds is " + std::to_string(seconds) + "; it must be from 10 to 3600");
   }
   return try_out(o, words.front(), *folder);
 }
 
-std::function<Result<>(const std::string&)> seconds_option(int& target) {
+std::function<Result<>(const std::string&)> seconds_option(std::optional<int>& target) {
   return [&target](const std::string& value) {
     return parse_whole("seconds", value).map([&target](int seconds) { target = seconds; });
   };

@@ -56,7 +56,7 @@ template <class Visitor>
 void visit(Visitor& v, BoardLines& lines) {
   v.required("names", lines.names, "The kernel's names");
   v.required("volt", lines.volt, Range::between(0.5, 48), "High level, V");
-  v.optional("pull", lines.pull, kPulls, "Resistor from power-on until somebody sets it");
+  v.optional("pull", lines.pull, kPulls, "Resistor from power-on until the line is driven");
 }
 
 template <class Visitor>

@@ -24,6 +24,12 @@ std::string join_group(const char* group) {
   return std::string("sudo usermod -aG ") + group + " $USER, then log in again";
 }
 
+/// Remedy for devices that udev's rules were not applied to, or whose group the user is not in.
+std::string apply_rules(const std::string& subsystem, const char* group) {
+  return "sudo udevadm trigger --action=change --subsystem-match=" + subsystem + " && " +
+         join_group(group);
+}
+
 /// Remedy for a camera that the board does not detect by itself.
 std::string missing_camera_remedy(const CameraFacts& camera, const BoardFacts& board) {
   const BoardCamera* const known =
@@ -97,8 +103,9 @@ Diagnosis line_diagnosis(const LineSettings& line, const Facts& facts) {
   if (!found) {
     const bool closed = std::ranges::any_of(
         facts.chips, [](const hal::ChipInfo& chip) { return !chip.error.empty(); });
-    return fault(who + found.error().message,
-                 closed ? join_group("gpio") : "orbwatch list shows lines; mend line_name or chip");
+    return fault(
+        who + found.error().message,
+        closed ? apply_rules("gpio", "gpio") : "orbwatch list shows lines; mend line_name or chip");
   }
   const std::string place = line.wire.address.text();
   const hal::LineInfo& info = *found->line;
@@ -135,9 +142,7 @@ Diagnoses check_heaps(const Facts& facts) {
     if (heap.error.empty()) {
       usable += (usable.empty() ? "" : ", ") + heap.path;
     } else {
-      found.push_back(fault(heap.path + ": " + heap.error,
-                            "sudo udevadm trigger --action=change --subsystem-match=dma_heap && " +
-                                join_group("video")));
+      found.push_back(fault(heap.path + ": " + heap.error, apply_rules("dma_heap", "video")));
     }
   }
   if (found.empty()) found.push_back(ok(usable));

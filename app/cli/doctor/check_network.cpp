@@ -25,6 +25,10 @@ Diagnosis privileged(const std::string& who, const PortFacts& port, const Networ
 }
 
 Diagnosis taken(const std::string& who, const PortFacts& port) {
+  if (!port.other_configuration.empty()) {
+    return fault(who + ": taken by the orbwatchd of " + port.other_configuration.string(),
+                 "another port in [" + port.key + "]");
+  }
   if (port.holder == "orbwatchd") return ok(who + ": held by orbwatchd");
   if (!port.holder.empty()) {
     return fault(who + ": taken by " + port.holder,

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/cli/doctor/checks.h"
+#include "app/files/lexical_path.h"
 
 /// Checks of space for state that must survive a restart, and for pictures.
 namespace orbwatch::app::cli::doctor {
@@ -9,6 +10,25 @@ namespace {
 
 constexpr double kFull = 20;         // MiB; an accepted alignment may no longer be kept
 constexpr double kNearlyFull = 500;  // MiB
+
+/// Diagnosis of a folder that the service cannot write.
+Diagnosis closed_folder(const std::string& who, const FolderFacts& folder) {
+  const std::string path = folder.path.string();
+  const std::string give = "sudo install -d -o orbwatch -g orbwatch " + path;
+  if (folder.access == Access::Denied) {
+    return fault(who + "not writable for the service's user", give);
+  }
+  const std::string text = who + "read-only for the service " + folder.unit;
+  for (const char* home : {"/home", "/root"}) {
+    if (files::is_lexically_below(folder.path, home)) {
+      return fault(text, std::string("another folder: ProtectHome= of the unit hides ") + home);
+    }
+  }
+  // The hyphen lets the service start without the disk.
+  return fault(text, give + "; sudo systemctl edit " + folder.unit +
+                         " with the lines [Service] and ReadWritePaths=-" + path +
+                         "; sudo systemctl restart " + folder.unit);
+}
 
 Diagnosis folder_diagnosis(const FolderFacts& folder) {
   if (!folder.error.empty()) {
@@ -21,6 +41,9 @@ Diagnosis folder_diagnosis(const FolderFacts& folder) {
     return fault(
         who + "its file system is read only",
         "sudo mount -o remount,rw $(df --output=target " + folder.path.string() + " | tail -1)");
+  }
+  if (folder.access == Access::ReadOnly || folder.access == Access::Denied) {
+    return closed_folder(who, folder);
   }
   if (!folder.free) return warning(who + "its free space cannot be read", "df -h");
   std::string text = who + std::to_string(std::lround(*folder.free)) + " MiB free";

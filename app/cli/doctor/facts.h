@@ -84,7 +84,13 @@ struct PortFacts {
   int error = 0;              ///< errno of bind(); 0: the port is free
   std::string holder{};       ///< program that listens; empty: unknown
   bool service_runs = false;  ///< orbwatchd runs, regardless of the port's holder
+  /// Configuration of the orbwatchd that listens, if it is not the examined one; empty: it is, or
+  /// it is unknown.
+  std::filesystem::path other_configuration{};
 };
+
+/// Right of the configuration's service to a folder.
+enum class Access : std::uint8_t { Unknown, Write, ReadOnly, Denied };
 
 struct FolderFacts {
   std::string use;
@@ -93,6 +99,8 @@ struct FolderFacts {
   std::optional<double> free_share{};  ///< percent
   bool read_only = false;
   std::string error{};  ///< reason why it is unknown; empty: it is known
+  Access access = Access::Unknown;
+  std::string unit{};  ///< unit that runs the configuration; empty: unknown
 };
 
 struct WatchdogFacts {

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/doctor/gather.h"
 
+#include <sys/stat.h>
 #include <sys/utsname.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <sstream>
 #include <system_error>
 #include <tuple>
 
 #include "app/cli/doctor/program_output.h"
 #include "app/daemon/site/site_check.h"
+#include "app/files/lexical_path.h"
 #include "app/files/resolve.h"
 #include "app/health/board_health.h"
 #include "app/health/system_file.h"
@@ -33,7 +39,7 @@ void gather_configuration(const fs::path& file, Facts& facts) {
   facts.configuration.exists = fs::exists(file, unknown);
   if (!facts.configuration.exists) return;
   if (!fs::is_regular_file(file, unknown)) {
-    facts.configuration.error = file.string() + ": is no file";
+    facts.configuration.error = file.string() + ": is not a file";
     return;
   }
   auto site = files::resolve(file);
@@ -58,30 +64,141 @@ fs::path existing(fs::path folder) {
   return folder;
 }
 
-FolderFacts folder_facts(const Sources& sources, const std::string& use, const fs::path& path) {
+bool is_read_only(const fs::path& folder) {
+  return ::access(folder.c_str(), W_OK) != 0 && errno == EROFS;
+}
+
+using Properties = std::map<std::string, std::string>;
+
+/// Properties of the units in the output of `systemctl show`, where an empty line separates them.
+std::vector<Properties> units_in(const std::string& shown) {
+  std::vector<Properties> units(1);
+  std::istringstream lines(shown);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find('=');
+    if (line.empty()) units.emplace_back();
+    if (end != std::string::npos) units.back()[line.substr(0, end)] = line.substr(end + 1);
+  }
+  return units;
+}
+
+template <class Word = std::string>
+std::vector<Word> words_of(const std::string& list) {
+  std::istringstream in(list);
+  return {std::istream_iterator<Word>(in), {}};
+}
+
+/// The unit whose environment names the configuration; nullopt: none, or systemd does not answer.
+std::optional<Properties> unit_of(const Sources& sources, const fs::path& configuration) {
   std::error_code unknown;
-  const fs::path folder =
-      existing(path.is_absolute() ? sources.at(path) : fs::absolute(path, unknown));
+  const fs::path folder = fs::absolute(configuration, unknown).parent_path();
+  const auto shown =
+      program_output(sources.at("/usr/bin/systemctl"),
+                     {"show",
+                      "--property=Id,MainPID,Environment,ProtectSystem,ReadWritePaths,"
+                      "StateDirectory,ConfigurationDirectory",
+                      "orbwatch.service", "orbwatch@" + folder.filename().string() + ".service"});
+  for (Properties& unit : units_in(shown.value_or(""))) {
+    for (const std::string& word : words_of(unit["Environment"])) {
+      if (word.starts_with(kConfigVariable) &&
+          is_same_file(word.substr(kConfigVariable.size()), configuration)) {
+        return std::move(unit);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Folders that a unit with ProtectSystem=strict leaves writable.
+std::vector<fs::path> writable_folders(Properties& unit) {
+  std::vector<fs::path> folders{"/dev", "/tmp", "/var/tmp"};  // the last two by PrivateTmp=
+  for (const std::string& word : words_of(unit["ReadWritePaths"])) {
+    folders.emplace_back(word.substr(std::min(word.find_first_not_of("-+"), word.size())));
+  }
+  for (const std::string& word : words_of(unit["StateDirectory"])) {
+    folders.push_back(fs::path("/var/lib") / word);
+  }
+  for (const std::string& word : words_of(unit["ConfigurationDirectory"])) {
+    folders.push_back(fs::path("/etc") / word);
+  }
+  return folders;
+}
+
+/// The numbers in a line of /proc/PID/status.
+std::vector<std::int64_t> numbers_of(const fs::path& process, std::string_view key) {
+  std::istringstream lines(read_system_file(process / "status").value_or(""));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(key)) return words_of<std::int64_t>(line.substr(key.size()));
+  }
+  return {};
+}
+
+/// False if the folder's mode forbids a process to write. Access control lists are not judged.
+bool may_write(const fs::path& process, const fs::path& folder) {
+  const auto users = numbers_of(process, "Uid:");
+  struct stat about {};
+  if (users.empty() || users.front() == 0 || ::stat(folder.c_str(), &about) != 0 ||
+      ::getxattr(folder.c_str(), "system.posix_acl_access", nullptr, 0) > 0) {
+    return true;
+  }
+  if (users.front() == about.st_uid) return (about.st_mode & S_IWUSR) != 0;
+  const auto is_member = [&](std::string_view key) {
+    return std::ranges::count(numbers_of(process, key), std::int64_t{about.st_gid}) > 0;
+  };
+  return (about.st_mode & (is_member("Gid:") || is_member("Groups:") ? S_IWGRP : S_IWOTH)) != 0;
+}
+
+/// Access of the unit's service: by its own mounts if it runs and this user is root, else by the
+/// unit's properties.
+Access access_of(const Sources& sources, Properties& unit, const fs::path& folder) {
+  std::error_code unknown;
+  // An absolute symbolic link would lead out of the process's root.
+  const fs::path real = fs::weakly_canonical(folder, unknown);
+  if (unknown) return Access::Unknown;
+  const fs::path process = sources.at("/proc") / unit["MainPID"];
+  if (fs::is_directory(process / "root", unknown)) {
+    const fs::path seen = existing(process / "root" / real.relative_path());
+    if (is_read_only(seen)) return Access::ReadOnly;
+    return may_write(process, seen) ? Access::Write : Access::Denied;
+  }
+  if (unit["ProtectSystem"] != "strict") return Access::Unknown;
+  const bool is_listed = std::ranges::any_of(writable_folders(unit), [&](const fs::path& listed) {
+    return files::is_lexically_below(real, fs::weakly_canonical(sources.at(listed), unknown));
+  });
+  return is_listed ? Access::Unknown : Access::ReadOnly;
+}
+
+FolderFacts folder_facts(const Sources& sources, std::optional<Properties>& unit,
+                         const std::string& use, const fs::path& path) {
+  std::error_code unknown;
+  const fs::path full = path.is_absolute() ? sources.at(path) : fs::absolute(path, unknown);
+  const fs::path folder = existing(full);
   FolderFacts facts{.use = use, .path = path};
   const Health health = BoardHealth(health_sources(sources, folder)).read();
   if (signals::is_valid(health.disk_free)) facts.free = health.disk_free;
   if (signals::is_valid(health.disk_free_share)) facts.free_share = health.disk_free_share;
-  facts.read_only = ::access(folder.c_str(), W_OK) != 0 && errno == EROFS;
+  facts.read_only = is_read_only(folder);
+  if (unit) {
+    facts.access = access_of(sources, *unit, full);
+    facts.unit = fs::path((*unit)["Id"]).stem().string();
+  }
   return facts;
 }
 
 void gather_folders(const Sources& sources, Facts& facts) {
   if (!facts.site) return;
+  auto unit = unit_of(sources, facts.configuration.file);
+  const auto add = [&](const std::string& use, const fs::path& folder) {
+    if (!folder.empty()) facts.folders.push_back(folder_facts(sources, unit, use, folder));
+  };
   const auto state = state_folder(facts.site->state_folder, facts.configuration.file);
   if (state) {
-    facts.folders.push_back(folder_facts(sources, "state", *state));
+    add("state", *state);
   } else {
     facts.folders.push_back({.use = "state", .path = {}, .error = state.error().message});
   }
-  const fs::path& snapshots = std::get<SnapshotSettings>(facts.site->sinks).folder;
-  if (!snapshots.empty()) {
-    facts.folders.push_back(folder_facts(sources, "snapshots", snapshots));
-  }
+  add("snapshots", std::get<SnapshotSettings>(facts.site->sinks).folder);
+  add("recordings", std::get<RecorderSettings>(facts.site->sinks).folder);
 }
 
 void gather_watchdog(const Sources& sources, Facts& facts) {
@@ -107,6 +224,11 @@ constexpr std::array kUnits{Unit{"us", 1e-6},  Unit{"ms", 1e-3},       Unit{"s",
                             Unit{"w", 604800}, Unit{"month", 2629800}, Unit{"y", 31557600}};
 
 }  // namespace
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code unknown;
+  return a == b || fs::equivalent(a, b, unknown);
+}
 
 std::optional<double> parse_time_span(std::string_view text) {
   constexpr std::string_view kSpace = " \t\n";

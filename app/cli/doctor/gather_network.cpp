@@ -9,6 +9,7 @@
 #include "app/cli/doctor/gather.h"
 #include "app/cli/doctor/program_output.h"
 #include "app/daemon/site/site_check.h"
+#include "app/files/runtime/site_file.h"
 #include "app/health/system_file.h"
 #include "hal/socket_address.h"
 #include "hal/thread/file_descriptor.h"
@@ -56,11 +57,34 @@ bool has_one_of(const fs::path& process, const std::set<std::string>& sockets) {
   });
 }
 
+/// Adds the program that listens.
+void add_holder(const fs::path& proc, const fs::path& configuration, PortFacts& port) {
+  const auto listener = listener_on(proc, port.port);
+  if (!listener) return;
+  port.holder = listener->name;
+  if (port.holder != "orbwatchd") return;
+  const auto other = configuration_of(listener->process);
+  if (other && !is_same_file(*other, configuration)) port.other_configuration = *other;
+}
+
+/// Texts of a process's arguments or environment; nullopt: this user may not read them.
+std::optional<std::vector<std::string>> texts_in(const fs::path& file) {
+  constexpr std::size_t kLongest = std::size_t{2} << 20;  // the kernel's limit of both together
+  const auto all = read_system_file(file, kLongest);
+  if (!all) return std::nullopt;
+  std::vector<std::string> texts;
+  std::istringstream in(*all);
+  for (std::string text; std::getline(in, text, '\0');) texts.push_back(text);
+  return texts;
+}
+
 void gather_ports(const Sources& sources, Facts& facts) {
   for (const ListeningPort& port : daemon::listening_ports(facts.site->sinks)) {
     PortFacts found{.key = std::string(port.interface), .address = port.address, .port = port.port};
     found.error = bind_error(port.address, port.port);
-    if (found.error == EADDRINUSE) found.holder = listener_on(sources.at("/proc"), port.port);
+    if (found.error == EADDRINUSE) {
+      add_holder(sources.at("/proc"), facts.configuration.file, found);
+    }
     found.service_runs = facts.limits.of_service;
     facts.ports.push_back(std::move(found));
   }
@@ -72,16 +96,40 @@ void gather_ports(const Sources& sources, Facts& facts) {
 
 }  // namespace
 
-std::string listener_on(const fs::path& proc, int port) {
+std::optional<Listener> listener_on(const fs::path& proc, int port) {
   std::set<std::string> sockets;
   for (const char* table : {"net/tcp", "net/tcp6"}) add_listeners(proc / table, port, sockets);
-  if (sockets.empty()) return "";
+  if (sockets.empty()) return std::nullopt;
   for (const fs::path& process : entries(proc)) {
     if (!to_integer(process.filename().native()) || !has_one_of(process, sockets)) continue;
     const std::string name = read_system_file(process / "comm").value_or("");
-    return name.substr(0, name.find('\n'));
+    return Listener{name.substr(0, name.find('\n')), process};
   }
-  return "";
+  return std::nullopt;
+}
+
+std::optional<fs::path> configuration_of(const fs::path& process) {
+  const auto arguments = texts_in(process / "cmdline");
+  if (!arguments) return std::nullopt;
+  fs::path file;
+  constexpr std::string_view kOption = "--config";
+  for (std::size_t i = 0; i < arguments->size(); ++i) {
+    const std::string& argument = (*arguments)[i];
+    if (argument == kOption && i + 1 < arguments->size()) file = (*arguments)[i + 1];
+    if (argument.starts_with("--config=")) file = argument.substr(kOption.size() + 1);
+  }
+  if (file.empty()) {
+    const auto variables = texts_in(process / "environ");
+    if (!variables) return std::nullopt;
+    for (const std::string& variable : *variables) {
+      if (variable.starts_with(kConfigVariable)) file = variable.substr(kConfigVariable.size());
+    }
+  }
+  if (file.empty()) file = files::kDefaultSiteFile;
+  if (file.is_absolute()) return file;
+  std::error_code error;
+  const fs::path folder = fs::read_symlink(process / "cwd", error);
+  return error ? std::nullopt : std::optional(folder / file);
 }
 
 void gather_network(const Sources& sources, Facts& facts) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 using align::DriftLevel;
 using align::DriftMonitor;
 
+constexpr std::string_view kLearning = "the zero of the drift is being learnt";
+
 Error about(const std::string& file, const Error& error, const hal::DecodedPicture& picture) {
   return {file + ": " + error.message + exif_note(picture)};
 }
@@ -28,13 +31,22 @@ Result<> refer_to(DriftMonitor& monitor, const fs::path& file) {
   });
 }
 
+/// Counts a picture without a measured drift. The figures are those of the last one that was
+/// measured: while the zero is learnt, a slow motion moves it, too.
+void note_unmeasured(const align::DriftState& state, DriftRun& run) {
+  const bool is_learning = state.level != DriftLevel::NotMeasured;
+  run.last.level = DriftLevel::NotMeasured;
+  run.last.is_learning = state.is_learning;
+  run.last.reason = is_learning ? kLearning : state.reason;
+  ++run.not_measured[std::string(run.last.reason)];
+}
+
 void note(const align::DriftState& state, const std::string& name, DriftRun& run) {
   const DriftRun::Event event{run.frames++, name};
-  run.last = state;
-  if (state.level == DriftLevel::NotMeasured) {
-    ++run.not_measured[std::string(state.reason)];
-    return;
+  if (state.level == DriftLevel::NotMeasured || state.is_learning) {
+    return note_unmeasured(state, run);
   }
+  run.last = state;
   ++run.measured;
   if (state.level >= DriftLevel::Warning && !run.first_warning) run.first_warning = event;
   if (state.level == DriftLevel::Alarm && !run.first_alarm) run.first_alarm = event;
@@ -61,6 +73,7 @@ Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLim
     if (!referred) return tl::unexpected(referred.error());
   }
   DriftRun run;
+  run.last.outline = subject.outline;
   for (std::size_t n = 0; n < pictures->size(); ++n) {
     progress.count("watching", n + 1, pictures->size(), "pictures");
     const auto decoded = pictures->read(n);

@@ -33,7 +33,9 @@ struct DriftRun {
   };
   std::optional<Event> first_warning;  ///< or alarm
   std::optional<Event> first_alarm;
-  align::DriftState last;  ///< at the last picture; its motion at the last one that was measured
+  /// State at the last picture; its figures are those of the last one that was measured, or of the
+  /// stored alignment.
+  align::DriftState last;
 };
 
 /// Watches the whole sequence, see hal::PictureSequence. Errors: no pictures, one that cannot be

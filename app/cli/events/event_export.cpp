@@ -49,7 +49,9 @@ CliResult<std::string> export_event(const recorder::StoredEvent& event, const Ev
   if (!o.camera.empty() && !(*kind)->has_camera)
     return usage_error("--camera is for .tif and .avi");
   if (o.draws && !(*kind)->has_text) return usage_error("--draw is for .avi");
-  if (!event.is_finished) return fail(event.name + " is being recorded; export it afterwards");
+  if (const auto finished = recorder::EventFolder::check_finished(event); !finished) {
+    return tl::unexpected(finished.error());
+  }
   const std::filesystem::path recording = event.folder / recorder::kEventFile;
   const auto range = recorder::stamps_in(recording, o.range);
   if (!range) return tl::unexpected(range.error());

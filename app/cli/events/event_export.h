@@ -20,7 +20,7 @@ struct EventExport {
 };
 
 /// Writes the file, whole or not at all; shows progress; Ctrl-C cancels. Returns a line about it.
-/// Errors: another ending; an event that is being recorded; those of the kind.
+/// Errors: another ending; an event that is being recorded or was not completed; those of the kind.
 CliResult<std::string> export_event(const recorder::StoredEvent& event, const EventExport& o);
 
 }  // namespace orbwatch::app::cli

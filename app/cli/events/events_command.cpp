@@ -57,11 +57,10 @@ constexpr const char* kEventsNotes =
     "\n"
     "--json of list prints one object: events [{name, folder, bytes, pinned, finished}], the "
     "oldest\n"
-    "first; that of show adds summary, the object of summary.json: trigger, text, first, "
-    "triggered\n"
-    "and last frame set (UTC), frame_set (number of the trigger's), recipe, part, layer, pictures "
-    "by\n"
-    "camera, lost pictures, has_beginning, is_interrupted, versions.\n";
+    "first; that of show adds summary, the object of summary.json: trigger, text, alarm (region,\n"
+    "signal, level, value, unit), line, first, triggered and last frame set (UTC), frame_set\n"
+    "(number of the trigger's), recipe, part, layer, pictures by camera, lost pictures,\n"
+    "has_beginning, is_interrupted, versions.\n";
 
 /// Folder of the recordings of a site.
 Result<std::filesystem::path> recordings_of(const std::filesystem::path& config) {
@@ -93,7 +92,9 @@ Result<std::string> pin(const StoredEvent& event, bool is_pinned) {
 }
 
 Result<std::string> remove(const EventFolder& folder, const StoredEvent& event) {
-  if (!event.is_finished) return fail(event.name + " is being recorded; delete it afterwards");
+  if (EventFolder::is_being_recorded(event)) {
+    return fail(event.name + " is being recorded; delete it afterwards");
+  }
   return folder.remove(event).map([&] { return event.name + " is deleted\n"; });
 }
 

@@ -39,7 +39,7 @@ std::string stored_events_text(const std::vector<recorder::StoredEvent>& events)
     records.push_back({{"name", event.name},
                        {"MiB", mebibytes(event.bytes)},
                        {"pinned", yes(event.is_pinned)},
-                       {"being_recorded", yes(!event.is_finished)}});
+                       {"being_recorded", yes(recorder::EventFolder::is_being_recorded(event))}});
   }
   return record_lines(records);
 }

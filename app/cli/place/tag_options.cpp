@@ -39,9 +39,10 @@ Result<PrintedTag> parse_tag(const std::string& text) {
   }
   const PrintedTag tag{*id, corners_of(*numbers)};
   if (!align::is_square(tag.corners)) {
-    return fail("tag " + std::to_string(*id) +
-                ": its corners are no square; give them as one reads the tag: top left, top right, "
-                "bottom right, bottom left");
+    return fail(
+        "tag " + std::to_string(*id) +
+        ": its corners are not a square; give them as one reads the tag: top left, top right, "
+        "bottom right, bottom left");
   }
   return tag;
 }

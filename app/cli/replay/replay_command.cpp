@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <system_error>
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/cli/replay/replay_run.h"
+#include "app/ports/recorder/export/staged_file.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -26,7 +35,7 @@ constexpr const char* kReplayNotes =
     "Lossless pictures, and those of cameras that send JPEG, give the same measurements bit by\n"
     "bit on the same kernel; for other processors set --tolerance. Of pictures that the recorder\n"
     "coded as JPEG of quality 90 or more, differences that JPEG explains are listed with jpeg in\n"
-    "the last column, counted apart, and are no reason for exit status 1: such as 0.25 mm or 2 %\n"
+    "the last column, counted apart, and do not cause exit status 1: such as 0.25 mm or 2 %\n"
     "of a width, 2 % of full scale of a mean intensity. The state of an alarm has no such\n"
     "tolerance. The first seconds after the start of an event are\n"
     "not compared, because rates and delays of alarms need what was before; see --settle.\n"
@@ -85,19 +94,69 @@ std::string sentence_of(const ReplayFigures& figures) {
   return text;
 }
 
+Result<ReplayFigures> print_replay(const ReplaySettings& settings, std::ostream& csv,
+                                   const std::atomic<bool>& is_cancelled) {
+  Progress progress;
+  auto figures = run_replay(settings, csv, progress, is_cancelled);
+  csv.flush();
+  if (figures && !csv) return fail("the CSV cannot be written completely");
+  return figures;
+}
+
+/// True: a pipe or a device, which others read while it is written.
+bool is_read_meanwhile(const std::filesystem::path& output) {
+  std::error_code none;
+  const auto status = std::filesystem::status(output, none);
+  return std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status);
+}
+
+/// Moves the complete CSV to its place; both survive a power cut.
+Result<> place_synced(std::ofstream& csv, recorder::StagedFile& staged) {
+  csv.close();
+  const hal::FileDescriptor file(::open(staged.path().c_str(), O_RDONLY | O_CLOEXEC));
+  if (!csv || !file.is_open() || ::fsync(file.get()) != 0) {
+    return fail(staged.path().string() +
+                ": cannot be written: " + std::system_category().message(errno));
+  }
+  return staged.place();
+}
+
+/// Writes the file beside its place, and moves it there: an error or Ctrl-C leaves what was there
+/// before. A link stays, and its file is replaced.
+Result<ReplayFigures> replace_output(const ReplayOptions& o) {
+  const std::atomic<bool>& is_cancelled = cancelled_by_signal();
+  std::error_code none, error;
+  const bool is_link = std::filesystem::is_symlink(o.output, none);
+  const auto target = is_link ? std::filesystem::canonical(o.output, error) : o.output;
+  if (error) return fail(o.output.string() + ": " + error.message());
+  auto staged = recorder::StagedFile::beside(target, recorder::Existing::Replaced);
+  if (!staged) return tl::unexpected(staged.error());
+  std::ofstream csv(staged->path());
+  if (!csv) return fail(o.output.string() + ": cannot be written");
+  return print_replay(o.run, csv, is_cancelled).and_then([&](const ReplayFigures& figures) {
+    return place_synced(csv, *staged).map([&] { return figures; });
+  });
+}
+
+Result<ReplayFigures> write_replay(const ReplayOptions& o) {
+  std::error_code none;
+  if (std::filesystem::equivalent(o.run.recording, o.output, none)) {
+    return fail(o.output.string() +
+                ": this is the recording itself; name another file for the CSV");
+  }
+  if (!is_read_meanwhile(o.output)) return replace_output(o);
+  std::ofstream csv(o.output);  // waits for the reader of a pipe; Ctrl-C ends the program
+  if (!csv) return fail(o.output.string() + ": cannot be written");
+  return print_replay(o.run, csv, cancelled_by_signal());
+}
+
 CliResult<std::string> replay(const ReplayOptions& o) {
   if (!(o.run.tolerance >= 0 && o.run.tolerance < 1)) {
     return usage_error("--tolerance must be at least 0 and below 1");
   }
-  std::ofstream file;
-  if (!o.output.empty()) file.open(o.output);
-  if (!o.output.empty() && !file) return fail(o.output.string() + ": cannot be written");
-  std::ostream& csv = o.output.empty() ? std::cout : file;
-  Progress progress;
-  const auto figures = run_replay(o.run, csv, progress);
+  const auto figures =
+      o.output.empty() ? print_replay(o.run, std::cout, cancelled_by_signal()) : write_replay(o);
   if (!figures) return tl::unexpected(figures.error());
-  csv.flush();
-  if (!csv) return fail("the CSV cannot be written completely");
   if (!o.run.compares) return std::string();
   const bool is_same = figures->compared.differences == 0 && figures->compared.missing.empty();
   if (figures->compared.values == 0) return fail("nothing to compare: " + sentence_of(*figures));

@@ -68,7 +68,7 @@ daemon::RecipeChoice choice_of(const std::string& word) {
 }  // namespace
 
 Result<ReplayFigures> run_replay(const ReplaySettings& settings, std::ostream& csv,
-                                 Progress& progress) {
+                                 Progress& progress, const std::atomic<bool>& is_cancelled) {
   progress.begin("reading the recording");
   auto replay = daemon::Replay::open(settings.recording, choice_of(settings.recipe), other_cores());
   if (!replay) return tl::unexpected(replay.error());
@@ -79,6 +79,7 @@ Result<ReplayFigures> run_replay(const ReplaySettings& settings, std::ostream& c
   std::uint64_t compared_from = 0;
   progress.begin("measuring");
   while (true) {
+    if (is_cancelled) return fail("cancelled");
     const auto set = replay->next();
     if (!set) return tl::unexpected(set.error());
     if (!*set) break;

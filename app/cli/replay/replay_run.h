@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -28,8 +29,8 @@ struct ReplayFigures {
 
 /// Measures all frame sets of a recording again, with the configuration in it, and writes the
 /// measurements as CSV; or, if it compares, what differs from the recorded ones. Errors: of the
-/// recording and its configuration; no frame set with pictures.
+/// recording and its configuration; no frame set with pictures; `is_cancelled`.
 Result<ReplayFigures> run_replay(const ReplaySettings& settings, std::ostream& csv,
-                                 Progress& progress);
+                                 Progress& progress, const std::atomic<bool>& is_cancelled);
 
 }  // namespace orbwatch::app::cli

@@ -132,6 +132,13 @@ Result<align::SimultaneousPictures> together(const Setup& setup, std::size_t cam
 /// Boxes are looked for in a room that the first camera knows.
 bool seeks_box(const Setup& setup) { return setup.walls && setup.cameras.front().pose; }
 
+/// Settings of a registration while the scene may lack a box. The outlines are detected ones, to be
+/// refined; while a box is sought, they stay: refined, they would take up a part of its parallax.
+RegistrationSettings first_settings(const Setup& setup) {
+  const bool keeps = seeks_box(setup);
+  return {.outline_sigma = keeps ? 0 : kFoundOutlineSigma, .keeps_outline = keeps};
+}
+
 /// The registration of a camera to the first one.
 Result<align::Registration> registration(const Setup& setup, std::size_t camera,
                                          const RegistrationSettings& settings, Progress& progress) {
@@ -156,7 +163,7 @@ void register_cameras(Setup& setup, const std::filesystem::path& folder, Progres
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     SetupCamera& camera = setup.cameras[n];
     if (camera.pose) continue;
-    const auto found = registration(setup, n, {.keeps_outline = seeks_box(setup)}, progress);
+    const auto found = registration(setup, n, first_settings(setup), progress);
     camera.is_registered = found.has_value();
     if (found) {
       accept(camera, *found);
@@ -215,7 +222,7 @@ void find_obstacle(Setup& setup, const std::filesystem::path& folder, Progress& 
 void refine_registrations(Setup& setup, Progress& progress) {
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     if (!setup.cameras[n].is_registered) continue;
-    const auto again = registration(setup, n, {}, progress);
+    const auto again = registration(setup, n, {.outline_sigma = kFoundOutlineSigma}, progress);
     if (again) accept(setup.cameras[n], *again);
   }
 }

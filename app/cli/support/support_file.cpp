@@ -17,20 +17,13 @@
 #include "app/cli/support/site_parts.h"
 #include "app/files/resolve.h"
 #include "app/health/system_file.h"
+#include "app/state/state_folder.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::cli::support {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The unit that runs a configuration file, see platform/service.
-std::string unit_of(const fs::path& config) {
-  const fs::path folder = config.parent_path();
-  const bool is_second =
-      config.filename() == "site.toml" && folder.parent_path() == "/etc/orbwatch";
-  return is_second ? "orbwatch@" + folder.filename().string() : "orbwatch";
-}
 
 Result<std::string> output_of(const SupportSources& sources, const fs::path& program,
                               const std::vector<std::string>& arguments,

@@ -170,9 +170,16 @@ Result<> check_acceptance(const std::filesystem::path& file, const files::Resolv
   return with_accepted(running.calibration, std::move(entry))
       .and_then([&](const files::FileTexts& accepted) { return files::resolve(file, accepted); })
       .and_then([](const files::Resolved& site) { return check_site(site, Dates::Ignored); })
-      .map_error([](const Error& error) {
-        return Error{"orbwatchd cannot run with it: " + error.message};
-      });
+      .map_error(
+          [](const Error& error) { return Error{"a restart would be refused: " + error.message}; });
+}
+
+void warn_of_refusal(const Chosen& chosen) {
+  if (!chosen.refusal.empty() || chosen.trial) return;
+  const auto checked = check_site(chosen.site, Dates::Ignored);
+  if (checked) return;
+  log_line(LogLevel::Warning,
+           checked.error().message + "; correct it: no restart or alignment is accepted before");
 }
 
 void keep(const Chosen& chosen) {

@@ -38,9 +38,13 @@ Result<> check_restart(const std::filesystem::path& file);
 /// Checks that the alignment of `entry`, found with `running`, the site that runs in place of
 /// `file` or as it, would be in force after a restart. Error: why not, and what to do first: a
 /// trial runs, which the restart would end; the files are wrong; the rig that they state is another
-/// one; the site cannot run with it.
+/// one; check_restart() would refuse the site with it.
 Result<> check_acceptance(const std::filesystem::path& file, const files::Resolved& running,
                           CalibrationEntry entry);
+
+/// Warns if check_restart() would refuse the files that run: a start demands less, so that an
+/// update does not stop a machine. Takes the time of check_site(); call it once the site runs.
+void warn_of_refusal(const Chosen& chosen);
 
 /// Notes a start: keeps the configuration as good, or tells who asked for a trial that it runs.
 void keep(const Chosen& chosen);

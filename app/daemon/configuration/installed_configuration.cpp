@@ -233,7 +233,7 @@ Result<files::FileTexts> InstalledConfiguration::placed(const Texts& texts) cons
     // A file has one name here, by which the desk knows the one that is guarded.
     const bool is_its_name = name_beside(file_, file) == name;
     if (!is_its_name || !may_be_changed(file, file_) || name.find('\0') != std::string::npos) {
-      return fail(name + ": is no path from the folder of the configuration to a file inside it");
+      return fail(name + ": must be a relative path inside the configuration's folder");
     }
     if (const auto allowed = check_replaceable(file, file_, named, state); !allowed) {
       return tl::unexpected(allowed.error());

@@ -64,7 +64,7 @@ Result<> check_replaceable(const fs::path& file, const fs::path& site,
     // A folder that also holds the configuration says nothing about its files.
     if (is_below(file, folder) && !is_below(site, folder)) {
       return fail(file.string() +
-                  ": is in the folder of the appliance's state, which is no place for a "
+                  ": is in the folder of the appliance's state, which is not a place for a "
                   "configuration");
     }
   }

@@ -5,7 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include "app/daemon/device/uploaded_file.h"
 #include "app/service/child_program.h"
 #include "hal/atomic_file.h"
 
@@ -24,8 +23,11 @@ constexpr std::chrono::minutes kEventsTime{10};
 }  // namespace
 
 DevicePrograms::DevicePrograms(fs::path config, const fs::path& state,
-                               std::function<void()> restart)
-    : config_(std::move(config)), folder_(state / "device-files"), restart_(std::move(restart)) {
+                               std::function<void()> restart, std::uint64_t reserve)
+    : config_(std::move(config)),
+      folder_(state / "device-files"),
+      restart_(std::move(restart)),
+      upload_(folder_ / kUpload, reserve) {
   std::error_code none;  // a file that stays is replaced later
   fs::remove_all(folder_, none);
 }
@@ -82,21 +84,13 @@ Result<DeviceFiles::Made> DevicePrograms::backup(const std::optional<std::string
 Result<std::uint64_t> DevicePrograms::upload(std::uint64_t offset, std::string_view bytes) {
   const std::lock_guard lock(mutex_);
   if (auto made = make_owners_folder(folder_); !made) return tl::unexpected(made.error());
-  if (offset > kMostUpload || bytes.size() > kMostUpload - offset) {
-    return fail("the file is larger than " + std::to_string(kMostUpload >> 20) +
-                " MiB; restore it by `orbwatch restore`");
-  }
-  std::error_code error;
-  const std::uintmax_t free = fs::space(folder_, error).available;
-  if (!error && offset + bytes.size() > kSmallUpload && free < kSmallUpload) {
-    return fail("the disk is full; restore it by `orbwatch restore`, from another disk");
-  }
-  return add_uploaded(folder_ / kUpload, offset, bytes);
+  return upload_.add(offset, bytes);
 }
 
 /// `way` is the option by which the files are only compared, or replaced.
-Result<std::string> DevicePrograms::restored(const Restore& restore, const char* way) const {
-  const fs::path file = folder_ / kUpload;
+Result<std::string> DevicePrograms::restored(const Restore& restore, const char* way) {
+  const fs::path& file = upload_.file();
+  upload_.keep();
   std::error_code none;
   if (!fs::exists(file, none)) return fail("no backup was uploaded");
   CliCall call{.arguments = {"restore", file.string(), "--json", way}, .time = kEventsTime};
@@ -111,6 +105,7 @@ Result<std::string> DevicePrograms::restored(const Restore& restore, const char*
     call.arguments.emplace_back("--without-secrets");
   }
   auto done = run(std::move(call));
+  upload_.keep();
   if (!done) {
     // Its path on this computer means nothing to the client.
     std::string message = std::move(done.error().message);

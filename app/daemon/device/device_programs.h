@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "app/daemon/device/cli_program.h"
+#include "app/daemon/device/uploaded_file.h"
 #include "app/model/configuration/device_files.h"
 #include "hal/thread/file_descriptor.h"
 
@@ -19,15 +21,10 @@ namespace orbwatch::app::daemon {
 /// folder, mode 0700, which is emptied at the beginning.
 class DevicePrograms final : public DeviceFiles {
  public:
-  /// Largest upload: a backup with kept events.
-  static constexpr std::uint64_t kMostUpload = std::uint64_t{2} << 30;
-  /// Larger uploads leave as much on the disk.
-  static constexpr std::uint64_t kSmallUpload = std::uint64_t{64} << 20;
-
   /// `config` is the configuration file, `state` its state folder. `restart` is called on any
-  /// thread.
+  /// thread. `reserve` is the free space that a large upload leaves on the disk, bytes.
   DevicePrograms(std::filesystem::path config, const std::filesystem::path& state,
-                 std::function<void()> restart);
+                 std::function<void()> restart, std::uint64_t reserve);
 
   Result<Made> support(const Figures& figures, bool pictures) override;
   Result<Made> backup(const std::optional<std::string>& passphrase, bool events) override;
@@ -41,13 +38,14 @@ class DevicePrograms final : public DeviceFiles {
  private:
   Result<std::string> run(CliCall call) const;
   Result<Made> make(const char* name, CliCall call);
-  Result<std::string> restored(const Restore& restore, const char* way) const;
+  Result<std::string> restored(const Restore& restore, const char* way);
 
   const std::filesystem::path config_;
   const std::filesystem::path folder_;
   const std::function<void()> restart_;
   const hal::EventFd cancelled_;
   std::mutex mutex_;  ///< held by each call: they have files in common, and need much memory
+  BackupUpload upload_;
 };
 
 }  // namespace orbwatch::app::daemon

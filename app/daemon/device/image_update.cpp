@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 constexpr const char* kUnderWay = "an update is being installed; repeat this afterwards";
 constexpr int kAll = 100;
 
-std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
-
 void add_trial(DeviceUpdate::State& state, const update::ImageFiles& image) {
   if (const auto trial = image.trial()) {
     state.trial = DeviceUpdate::Trial::OnTrial;

@@ -35,12 +35,19 @@ Result<> start_noticed(Appliance& appliance, ProgressNotice& notice) {
   return notice.start().and_then([&] { return appliance.start({&notice}); });
 }
 
+/// Free space that the recorder leaves on its disk, bytes.
+std::uint64_t reserve_of(const files::Resolved& site) {
+  const int reserve_mib = std::get<RecorderSettings>(site.site.sinks).reserve_mib;
+  return static_cast<std::uint64_t>(reserve_mib) << 20;
+}
+
 /// Null: without a state folder of its own nothing can be made or restored.
 std::shared_ptr<DeviceFiles> device_files(const std::filesystem::path& config,
                                           const files::Resolved& site, RestartWatch& restarts) {
   if (site.state_folder.empty()) return nullptr;
-  return std::make_shared<DevicePrograms>(config, site.state_folder,
-                                          [&restarts] { restarts.restart(); });
+  return std::make_shared<DevicePrograms>(
+      config, site.state_folder, [&restarts] { restarts.restart(); },
+      backup_reserve(std::get<RecorderSettings>(site.site.sinks)));
 }
 
 /// Null: this computer does not run an image.
@@ -48,12 +55,10 @@ std::shared_ptr<DeviceUpdate> device_update(const files::Resolved& site,
                                             const std::function<void()>& restart_device) {
   const update::ImageFiles image;
   if (site.state_folder.empty() || !image.version()) return nullptr;
-  const int reserve_mib = std::get<RecorderSettings>(site.site.sinks).reserve_mib;
-  return std::make_shared<ImageUpdate>(
-      ImageUpdate::Settings{.image = image,
-                            .folder = site.state_folder / "update",
-                            .reserve = static_cast<std::uint64_t>(reserve_mib) << 20,
-                            .restart_device = restart_device});
+  return std::make_shared<ImageUpdate>(ImageUpdate::Settings{.image = image,
+                                                             .folder = site.state_folder / "update",
+                                                             .reserve = reserve_of(site),
+                                                             .restart_device = restart_device});
 }
 
 }  // namespace
@@ -102,6 +107,7 @@ Result<> ApplianceThread::run() {
   keep(*chosen);
   restarts.begin_run();
   if (chosen->trial) files->set_trial_end(restarts.trial_end());
+  warn_of_refusal(*chosen);
   serve(**appliance);
   notify_of(restarts_);
   publish(nullptr);

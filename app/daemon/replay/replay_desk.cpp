@@ -171,17 +171,21 @@ Result<> ReplayDesk::advance(std::uint64_t done, std::uint64_t of) {
 }
 
 void ReplayDesk::end(Result<std::shared_ptr<Finished>> finished) {
-  const std::lock_guard lock(mutex_);
-  if (is_cancelled_ || !is_started_) {
-    status_.state = ReplayState::None;
-  } else if (finished) {
-    finished_ = std::move(*finished);
-    status_.state = ReplayState::Done;
-  } else {
-    status_.state = ReplayState::Failed;
-    status_.error = finished.error().message;
-    log_line(LogLevel::Warning, status_.event + " is not replayed: " + status_.error);
+  std::string failure;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_cancelled_ || !is_started_) {
+      status_.state = ReplayState::None;
+    } else if (finished) {
+      finished_ = std::move(*finished);
+      status_.state = ReplayState::Done;
+    } else {
+      status_.state = ReplayState::Failed;
+      status_.error = finished.error().message;
+      failure = status_.event + " is not replayed: " + status_.error;
+    }
   }
+  if (!failure.empty()) log_line(LogLevel::Warning, failure);
 }
 
 ReplayStatus ReplayDesk::status() const {

@@ -9,6 +9,7 @@
 
 #include "app/daemon/site/build.h"
 #include "app/pipeline/views/view_renderer.h"
+#include "hal/device_camera.h"
 
 namespace orbwatch::app::daemon {
 namespace {
@@ -87,18 +88,18 @@ Result<double> scale_of_counts(const hal::Camera& camera, const files::CameraSet
     return fail("is radiometric but does not say its scale; state kelvin_per_count");
   }
   if (said->kelvin_per_count <= 0) {
-    return fail("is radiometric but, as it is set, its counts are no temperatures: " +
-                said->said_by + "; set it with [[camera.control]]");
+    return fail("is radiometric but, as it is set, its counts are not temperatures: " +
+                said->stated_by + "; set it with [[camera.control]]");
   }
   // A file has few digits.
   constexpr double kSame = 1e-6;
   if (stated > 0 && std::abs(stated / said->kelvin_per_count - 1) > kSame) {
     return fail("has kelvin_per_count " + kelvin_text(stated) + ", but says " +
-                kelvin_text(said->kelvin_per_count) + ": " + said->said_by);
+                kelvin_text(said->kelvin_per_count) + ": " + said->stated_by);
   }
   if (settings.radiometry.kelvin_offset != 0) {
     return fail("has kelvin_offset " + kelvin_text(settings.radiometry.kelvin_offset) +
-                ", but says counts that begin at 0 K: " + said->said_by);
+                ", but says counts that begin at 0 K: " + said->stated_by);
   }
   return said->kelvin_per_count;
 }
@@ -155,16 +156,20 @@ void add_cameras(pipeline::PipelinePlan& plan, OpenedCameras opened, const files
                  Lines& lines) {
   for (std::size_t i = 0; i < opened.cameras.size(); ++i) {
     const files::CameraSettings& settings = site.site.cameras[i];
-    plan.triggers.push_back(
-        lines.trigger(settings.trigger, settings.trigger_source, *opened.cameras[i]));
+    hal::TriggerSettings trigger = settings.trigger;
+    if (trigger.mode == hal::TriggerMode::Line) {
+      // A camera that runs freely may expose a period after the edge.
+      trigger.timeout = hal::stall_timeout(opened.formats[i].frame_rate);
+    }
+    plan.triggers.push_back(lines.trigger(trigger, settings.trigger_source, *opened.cameras[i]));
   }
   plan.cameras = std::move(opened.cameras);
   plan.absent = opened.absent;
   plan.process_inputs = lines.process_inputs();
 }
 
-hal::DeviceResult<> take_up(const files::Resolved& site, std::size_t index, hal::Camera& camera,
-                            pipeline::Pipeline& pipeline) {
+hal::DeviceResult<> reconnect(const files::Resolved& site, std::size_t index, hal::Camera& camera,
+                              pipeline::Pipeline& pipeline) {
   const auto missing = [&](const hal::FaultReport& fault) {
     pipeline.miss(index, fault.fault);
     return hal::fail(fault.fault, "camera " + site.site.cameras[index].name + ": " + fault.detail);

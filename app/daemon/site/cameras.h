@@ -42,7 +42,7 @@ void add_cameras(pipeline::PipelinePlan& plan, OpenedCameras opened, const files
 /// Opens an absent camera and has the pipeline take it up; compiles its views first where it
 /// delivers another format than was expected. On the main thread. The error is also the camera's
 /// fault.
-hal::DeviceResult<> take_up(const files::Resolved& site, std::size_t index, hal::Camera& camera,
-                            pipeline::Pipeline& pipeline);
+hal::DeviceResult<> reconnect(const files::Resolved& site, std::size_t index, hal::Camera& camera,
+                              pipeline::Pipeline& pipeline);
 
 }  // namespace orbwatch::app::daemon

@@ -26,10 +26,10 @@ class AlignmentSource;
 
 namespace orbwatch::app::daemon {
 
-/// Who may command this appliance, in one line. Reentrant.
+/// Clients that may command this appliance, in one line. Reentrant.
 std::string commanders_text(const files::SinkSettings& sinks);
 
-/// By bit of Interfaces::faults().
+/// Names of the interfaces by bit of Interfaces::faults().
 inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<Settings...>*) {
   return std::array{Settings::kName...};
 }(static_cast<const files::SinkSettings*>(nullptr));
@@ -39,8 +39,7 @@ inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<S
 class Interfaces {
  public:
   /// Makes the enabled ones. `commands` go to the appliance, states of the machine to `machine`;
-  /// `background` encodes; `alignment` is
-  /// the caller's and outlives this; null: none.
+  /// `background` encodes; `alignment` is the caller's and outlives this; null: none.
   Interfaces(const files::Resolved& site, const SitePlan& plan, CommandPath commands,
              MachinePath machine, std::shared_ptr<hal::SharedThreads> background,
              AlignmentSource* alignment = nullptr, Program program = {});
@@ -58,10 +57,10 @@ class Interfaces {
   void start(Attempts& attempts, hal::TimePoint now);
   void stop();
 
-  /// For the pipeline.
+  /// Sinks of the pipeline.
   std::vector<Sink*> sinks() const;
 
-  /// What they show and count of themselves. On any thread, once this is made.
+  /// Their own tables and counts. On any thread, once this is made.
   std::vector<InterfaceTable> tables() const;
   std::vector<InterfaceMetric> metrics() const;
 

@@ -24,9 +24,9 @@ Result<> check_keys(const files::Resolved& site, Dates dates);
 /// are known.
 Result<> check_recordings(const files::Resolved& site);
 
-/// Plans the site for the formats that are expected, and checks what build() would refuse, ports
-/// and keys. Opens no camera and no line; compiles no view and allocates no picture, so that it may
-/// run beside the site.
+/// Plans the site for the formats that are expected, and checks what build() would refuse, the
+/// interfaces, and that each camera and line is used once. Opens no camera and no line; compiles no
+/// view and allocates no picture, so that it may run beside the site.
 Result<SitePlan> checked_plan(const files::Resolved& site, Dates dates);
 
 /// The same for callers that need no plan.

@@ -156,7 +156,7 @@ hal::StreamFormat expected_format(const files::Resolved& site, std::size_t camer
   const signals::RadiometrySettings& radiometry = settings.radiometry;
   format.format = radiometry.is_radiometric() ? PixelFormat::Y16 : PixelFormat::Grey;
   format.kelvin_per_count = radiometry.kelvin_per_count > 0 ? radiometry.kelvin_per_count
-                            : radiometry.says_scale         ? kAssumedKelvinPerCount
+                            : radiometry.states_scale       ? kAssumedKelvinPerCount
                                                             : 0;
   format.kelvin_offset = radiometry.kelvin_offset;
   format.width = site.rig_camera(camera).width;

@@ -121,6 +121,7 @@ void visit(Visitor& v, IntrinsicsSettings& lens) {
   v.optional(
       "file", lens.file,
       "Calibration file of OpenCV or ROS' camera_calibration, YAML; instead of the keys below");
+  v.require(!lens.file || !lens.file->empty(), "file", "is empty; it must name a file");
   const bool here = !lens.file;
   const char* const when = "intrinsics without file";
   v.required_if(here, when, "fx", lens.fx, Range::above(0), "Focal length, px");

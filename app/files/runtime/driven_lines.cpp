@@ -9,6 +9,7 @@
 #include "app/files/toml/toml_reader.h"
 #include "app/files/toml/toml_text.h"
 #include "hal/atomic_file.h"
+#include "hal/boot_id.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::files {
@@ -47,12 +48,6 @@ void visit(Visitor& v, DrivenLines& driven) {
 
 fs::path record_in(const fs::path& folder) { return folder / "driven-lines.toml"; }
 
-/// Id of the current boot; empty if the kernel reports none.
-std::string this_boot() {
-  auto id = hal::read_regular_file("/proc/sys/kernel/random/boot_id").value_or("");
-  return id.substr(0, id.find('\n'));
-}
-
 std::string bias_word(hal::LineBias bias) {
   const auto found = std::ranges::find(kLineBiases, bias, &Word<hal::LineBias>::value);
   return std::string(found->name);
@@ -86,7 +81,7 @@ LineSettings line_of(const DrivenLine& driven) {
 Result<> record_driven_lines(const fs::path& folder, const std::vector<LineSettings>& lines) {
   std::string text =
       "# GPIO outputs that orbwatchd drives, for `orbwatch lines --safe` after SIGKILL.\n" +
-      toml_line("boot", toml_string(this_boot()));
+      toml_line("boot", toml_string(hal::boot_id()));
   for (const LineSettings& line : lines) {
     if (!is_input(line.use) && line.back_end == LineKind::Gpio) text += text_of(line);
   }
@@ -105,7 +100,7 @@ Result<std::optional<std::vector<LineSettings>>> driven_lines(const fs::path& fo
   DrivenLines driven;
   read_toml(*text, driven, finding);
   if (finding.message) return fail(*finding.message);
-  if (driven.boot != this_boot()) return std::nullopt;
+  if (driven.boot != hal::boot_id()) return std::nullopt;
   std::vector<LineSettings> lines;
   for (const DrivenLine& line : driven.lines) lines.push_back(line_of(line));
   return lines;

@@ -50,7 +50,7 @@ Result<FileTexts> read_kept(const std::filesystem::path& file, const std::string
 std::filesystem::path site_file(const std::filesystem::path& given) {
   if (!given.empty()) return given;
   const char* const named = std::getenv("ORBWATCH_CONFIG");
-  return named != nullptr && *named != '\0' ? named : "/etc/orbwatch/site.toml";
+  return named != nullptr && *named != '\0' ? named : kDefaultSiteFile;
 }
 
 Result<> keep_last_good(const std::filesystem::path& folder, const Resolved& site) {

@@ -8,9 +8,10 @@
 
 namespace orbwatch::app::files {
 
+inline constexpr const char* kDefaultSiteFile = "/etc/orbwatch/site.toml";
+
 /// Path of the configuration file: `given` unless it is empty, else that of the environment's
-/// ORBWATCH_CONFIG, else /etc/orbwatch/site.toml. Must not be called while the environment is
-/// changed.
+/// ORBWATCH_CONFIG, else kDefaultSiteFile. Must not be called while the environment is changed.
 std::filesystem::path site_file(const std::filesystem::path& given);
 
 /// Keeps the texts of a configuration, and of its accepted alignments, in `folder`, replacing the

@@ -8,6 +8,7 @@
 #include "app/files/text/file_version.h"
 #include "app/files/text/text_file.h"
 #include "hal/atomic_file.h"
+#include "hal/made_folder.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::files {
@@ -15,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path requested_in(const fs::path& folder) { return folder / "trial.json"; }
-fs::path running_in(const fs::path& folder) { return folder / "trial-running.json"; }
-fs::path confirmed_in(const fs::path& folder) { return folder / "trial-confirmed.json"; }
+fs::path requested_in(const fs::path& folder) { return folder / kRequestedTrial; }
+fs::path running_in(const fs::path& folder) { return folder / kRunningTrial; }
+fs::path confirmed_in(const fs::path& folder) { return folder / kConfirmedTrial; }
 fs::path report_in(const fs::path& folder) { return folder / "trial-report.json"; }
 
 /// Parses a file; `parse` may throw the exceptions of the JSON library. Nullopt: no such file.
@@ -162,7 +163,8 @@ Result<std::optional<std::vector<fs::path>>> finish_confirmed(const fs::path& fo
     const auto present = hal::read_regular_file(path);
     if (present && *present == text) return {};
     written.push_back(path);
-    return hal::write_file(path, text, hal::FileAccess::Folder);
+    return hal::make_folders_above(path).and_then(
+        [&] { return hal::write_file(path, text, hal::FileAccess::Folder); });
   };
   for (const auto& [path, text] : (*trial)->texts) {
     if (path == (*trial)->site) continue;

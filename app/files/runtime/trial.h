@@ -6,12 +6,18 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/files/text/text_file.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app::files {
+
+/// Names of the files of a trial in the folder of state; see Trial.
+inline constexpr std::string_view kRequestedTrial = "trial.json";
+inline constexpr std::string_view kRunningTrial = "trial-running.json";
+inline constexpr std::string_view kConfirmedTrial = "trial-confirmed.json";
 
 /// CRC-32 of files by their path; see FileVersion.
 using FileChecksums = std::map<std::filesystem::path, std::uint32_t>;

@@ -19,7 +19,7 @@ void TomlReader::refuse_unknown_keys() {
     std::string allowed;
     for (const auto& known : known_) allowed += (allowed.empty() ? "" : ", ") + known;
     finding_.refuse_unknown(line_of(node), name(std::string(given)),
-                            "is no key; there are: " + allowed);
+                            "is not a key; there are: " + allowed);
   }
 }
 
@@ -92,7 +92,14 @@ void TomlReader::read(const toml::node& node, const std::string& key,
                       std::filesystem::path& value) {
   std::string text;
   read(node, key, text);
-  value = finding_.folder / text;
+  // An empty text names no file; joined, it would name the folder.
+  value = text.empty() ? std::filesystem::path() : finding_.folder / text;
+}
+
+void TomlReader::read(const toml::node& node, const std::string& key, NamedFile& value) {
+  read(node, key, value.path);
+  value.line = line_of(node);
+  if (value.path.empty()) finding_.refuse(value.line, key, "is empty; it must name a file");
 }
 
 void TomlReader::read(const toml::node& node, const std::string& key,

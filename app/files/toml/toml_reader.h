@@ -166,10 +166,7 @@ class TomlReader {
   void read(const toml::node& node, const std::string& key, bool& value);
   void read(const toml::node& node, const std::string& key, std::string& value);
   void read(const toml::node& node, const std::string& key, std::filesystem::path& value);
-  void read(const toml::node& node, const std::string& key, NamedFile& value) {
-    read(node, key, value.path);
-    value.line = line_of(node);
-  }
+  void read(const toml::node& node, const std::string& key, NamedFile& value);
   void read(const toml::node& node, const std::string& key, std::vector<std::string>& value);
   void read(const toml::node& node, const std::string& key, Reference& value) {
     read(node, key, value.name);

@@ -72,12 +72,14 @@ struct AlignmentReport {
 /// Request for a picture from which a user judges an alignment, or for a pair.
 struct AlignmentPicture {
   std::size_t camera = 0;
-  /// Requested view; nullopt: the camera's picture in full resolution.
+  /// Requested view; nullopt: the camera's whole picture.
   std::optional<optics::ViewSpec> view;
   bool is_proposed = false;                      ///< use the proposed alignment, if there is one
   std::optional<optics::BallModel::Kind> model;  ///< replaces the rig's model
   /// Also requests the same view from the first camera, by its alignment in force.
   bool is_beside_first = false;
+  /// Sides of the whole picture, px, none above the camera's; 0: the camera's own.
+  int width = 0, height = 0;
 };
 
 /// JPEG files of frames of one set. One-channel pictures are stretched: black is the 1st, white the

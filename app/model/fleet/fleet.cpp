@@ -14,7 +14,7 @@ constexpr std::chrono::seconds kLook{20};
 
 }  // namespace
 
-void Fleet::call_self(const std::string& id) {
+void Fleet::set_own_id(const std::string& id) {
   const std::lock_guard lock(mutex_);
   self_ = id;
 }
@@ -25,7 +25,7 @@ Fleet::Place* Fleet::find(const std::string& id) {
   return found == places_.end() ? nullptr : &*found;
 }
 
-void Fleet::hear(const std::string& id, const ApplianceNotice& notice, hal::TimePoint now) {
+void Fleet::receive(const std::string& id, const ApplianceNotice& notice, hal::TimePoint now) {
   const std::lock_guard lock(mutex_);
   Place* place = find(id);
   if (!place) {
@@ -119,14 +119,14 @@ std::size_t Fleet::forget_gone(hal::TimePoint now) {
   return std::erase_if(places_, [](const Place& place) { return place.entry.is_gone; });
 }
 
-void Fleet::look(hal::TimePoint now) {
+void Fleet::note_viewer(hal::TimePoint now) {
   const std::lock_guard lock(mutex_);
-  looked_at_ = now;
+  viewed_at_ = now;
 }
 
-bool Fleet::is_looked_at(hal::TimePoint now) const {
+bool Fleet::has_viewers(hal::TimePoint now) const {
   const std::lock_guard lock(mutex_);
-  return looked_at_ != hal::TimePoint{} && now - looked_at_ < kLook;
+  return viewed_at_ != hal::TimePoint{} && now - viewed_at_ < kLook;
 }
 
 }  // namespace orbwatch::app

@@ -40,9 +40,9 @@ class Fleet {
   };
 
   /// Sets the id of this appliance.
-  void call_self(const std::string& id);
+  void set_own_id(const std::string& id);
 
-  void hear(const std::string& id, const ApplianceNotice& notice, hal::TimePoint now);
+  void receive(const std::string& id, const ApplianceNotice& notice, hal::TimePoint now);
   /// Keeps the newest picture of a listed appliance. Refused: pictures of unknown appliances, and
   /// those above kMostPictureBytes.
   void show(const std::string& id, std::string jpeg);
@@ -58,8 +58,8 @@ class Fleet {
   std::size_t forget_gone(hal::TimePoint now);
 
   /// Reports a viewer of the pictures: they are received for a while.
-  void look(hal::TimePoint now);
-  bool is_looked_at(hal::TimePoint now) const;
+  void note_viewer(hal::TimePoint now);
+  bool has_viewers(hal::TimePoint now) const;
 
  private:
   struct Place {
@@ -78,7 +78,7 @@ class Fleet {
   std::vector<Place> places_;  // all under the mutex
   std::string self_;
   Counts counts_;
-  hal::TimePoint looked_at_;
+  hal::TimePoint viewed_at_;
 };
 
 }  // namespace orbwatch::app

@@ -58,6 +58,16 @@ using MachineStateHandler = std::function<Result<>(const MachineState&)>;
 struct MachinePath {
   MachineSource source = MachineSource::None;  ///< other interfaces refuse states
   MachineStateHandler handler;
+  /// Counts and logs a message that is not a state, like a state that the handler refuses.
+  /// Thread-safe, does not wait. Null: not counted.
+  std::function<void(const Error&)> refused{};
+
+  /// Hands over what an interface received. Error: the message's, or the handler's.
+  Result<> take(const Result<MachineState>& state) const {
+    if (state) return handler(*state);
+    if (refused) refused(state.error());
+    return tl::unexpected(state.error());
+  }
 };
 
 /// Refusal of an interface that is not the source. Reentrant.

@@ -5,20 +5,32 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "proc/image/result.h"
+#include "proc/signals/alarm.h"
 #include "proc/signals/signals.h"
 
 namespace orbwatch::app {
+
+/// The raised alarm that was a trigger, in parts, from which other languages make a text.
+struct AlarmCause {
+  std::string region, signal;  ///< their names
+  signals::AlarmLevel level = signals::AlarmLevel::None;
+  double value = signals::kNotValid;
+  std::string unit;
+};
 
 /// An event on the disk: pictures of the cameras from before and after a trigger.
 struct RecordedEvent {
   std::string name;                    ///< unique, for requests
   std::string trigger;                 ///< name of the trigger's kind
   std::string text;                    ///< cause for operators, one line
+  std::optional<AlarmCause> alarm;     ///< empty: another cause, or an earlier version's event
+  std::string line;                    ///< name of the digital line; empty: likewise
   std::string first, triggered, last;  ///< UTC of frame sets; empty: not known
   std::string part;                    ///< empty: not known
   double layer = signals::kNotValid;   ///< of the part

@@ -11,6 +11,7 @@
 #include "app/model/sink/view.h"
 #include "app/model/status/alarm_notice.h"
 #include "app/model/status/status.h"
+#include "hal/camera.h"
 #include "hal/sync/frame_set.h"
 #include "proc/image/result.h"
 
@@ -39,6 +40,9 @@ class Sink {
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 
+  /// Called before the first frame set of a camera that was absent at the start and delivers
+  /// another format than was expected of it. On the pipeline's thread.
+  virtual void accept_format(std::size_t /*camera*/, const hal::StreamFormat& /*format*/) {}
   /// The cameras' own pictures, before the views made of them. The cameras own their buffers: all
   /// sinks together keep hal::kFrameReaders buffers of a camera, each until one conversion is done.
   virtual void accept_frames(const hal::FrameSet& /*set*/) {}
@@ -51,7 +55,8 @@ class Sink {
   /// the run.
   virtual KeptViews keeps() const { return {}; }
   virtual void accept(const ViewPtr& view) = 0;
-  /// Called before the views of the same frame set, and at least ten times a second without frames.
+  /// Called before the views of the same frame set, and at least ten times a second: again without
+  /// frames, and between views that take long.
   virtual void accept(const Status& status) = 0;
 
   /// Called before the status that shows it. Each notice counts: a sink that forwards them keeps a

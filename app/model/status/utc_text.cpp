@@ -12,6 +12,13 @@ namespace {
 
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
+/// True if the digits are where the form has zeros, and its other characters where it has them.
+bool has_form(std::string_view text, std::string_view form) {
+  return std::ranges::equal(text, form, [](char given, char wanted) {
+    return wanted == '0' ? is_digit(given) : given == wanted;
+  });
+}
+
 std::uint64_t value_of(std::string_view digits) {
   std::uint64_t value = 0;
   for (const char digit : digits) value = 10 * value + static_cast<std::uint64_t>(digit - '0');
@@ -44,12 +51,9 @@ std::optional<std::string> utc_text(std::chrono::system_clock::time_point moment
 
 std::optional<std::uint64_t> parse_utc_text(std::string_view text) {
   constexpr std::string_view kForm = "0000-00-00T00:00:00";
-  const bool has_form =
-      text.size() > kForm.size() && text.ends_with('Z') &&
-      std::ranges::equal(text.substr(0, kForm.size()), kForm, [](char given, char form) {
-        return form == '0' ? is_digit(given) : given == form;
-      });
-  if (!has_form) return std::nullopt;
+  const bool is_moment = text.size() > kForm.size() && text.ends_with('Z') &&
+                         has_form(text.substr(0, kForm.size()), kForm);
+  if (!is_moment) return std::nullopt;
   const auto part = [&](std::size_t at, std::size_t digits) {
     return static_cast<int>(value_of(text.substr(at, digits)));
   };
@@ -69,5 +73,14 @@ std::optional<std::uint64_t> parse_utc_text(std::string_view text) {
   if (!is_date || !rest || since_1970 < 0) return std::nullopt;
   return static_cast<std::uint64_t>(since_1970) * 1'000'000'000 + *rest;
 }
+
+std::optional<std::string> compact_utc_text(std::chrono::system_clock::time_point moment) {
+  auto text = utc_text(moment);
+  if (!text) return text;
+  std::erase_if(*text, [](char c) { return c == '-' || c == ':'; });
+  return text->substr(0, kCompactUtcLength - 1) + "Z";
+}
+
+bool is_compact_utc_text(std::string_view text) { return has_form(text, "00000000T000000.000Z"); }
 
 }  // namespace orbwatch::app

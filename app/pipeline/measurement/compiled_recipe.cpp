@@ -95,6 +95,11 @@ void CompiledRecipe::begin() {
   }
 }
 
+void CompiledRecipe::continue_alarms(const CompiledRecipe& other) {
+  board_ = other.board_;
+  alarms_ = other.alarms_;
+}
+
 void CompiledRecipe::render(const hal::FrameSet& set, const FramePyramids& pyramids,
                             ViewBuffers& buffers, WorkerPool& workers) {
   for (std::size_t n = 0; n < views_.size(); ++n) {

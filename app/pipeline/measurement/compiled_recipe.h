@@ -37,6 +37,9 @@ class CompiledRecipe {
   /// Resets regions and alarms, because the recipe has just been selected.
   void begin();
 
+  /// Continues the alarms of `other`, compiled from the same files for other formats of cameras.
+  void continue_alarms(const CompiledRecipe& other);
+
   /// The measured views, in the plan's order.
   std::span<ViewChannel> views() { return views_; }
 

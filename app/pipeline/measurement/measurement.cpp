@@ -91,7 +91,9 @@ void Measurement::exchange(std::vector<std::unique_ptr<CompiledRecipe>>& recipes
   for (std::size_t i = 0; i < recipes_.size(); ++i) {
     if (!recipes[i]) continue;
     std::swap(recipes_[i], recipes[i]);
-    if (recipe_ == recipes[i].get()) change_to(*recipes_[i]);
+    if (recipe_ != recipes[i].get()) continue;
+    recipe_ = recipes_[i].get();
+    recipe_->continue_alarms(*recipes[i]);
   }
 }
 

@@ -24,7 +24,7 @@ namespace orbwatch::app::pipeline {
 
 /// Decides which recipe is measured, which frame sets are results, whether the process is active,
 /// and which alarms are raised.
-/// Thread rule: commands on any thread, stop on the main, all else on the pipeline's.
+/// Thread rule: commands on any thread, start and stop on the main, all else on the pipeline's.
 class Measurement {
  public:
   using ProcessInputs = std::vector<std::shared_ptr<const hal::ProcessInput>>;
@@ -58,7 +58,8 @@ class Measurement {
   void apply_commands(hal::TimePoint stamp);
 
   /// Swaps in the `recipes` that are not null, by index, between two sets, and leaves its own
-  /// there. The replaced ones are needed until the next watch() has returned.
+  /// there. They have the same alarms, which continue: a camera that connects acknowledges none.
+  /// The replaced ones are needed until the next watch() has returned.
   void exchange(std::vector<std::unique_ptr<CompiledRecipe>>& recipes);
 
   /// Planned views of each recipe.
@@ -85,6 +86,8 @@ class Measurement {
   /// State after the last apply_commands().
   bool is_paused() const { return paused_; }
 
+  /// Sets the cameras to recipes from now on: see RecipeSwitch::start().
+  void start() { switch_.start(); }
   void stop() { switch_.stop(); }
 
  private:

@@ -10,10 +10,13 @@ namespace orbwatch::app::pipeline {
 RecipeSwitch::RecipeSwitch(std::size_t first, Apply apply)
     : apply_(std::move(apply)), set_to_(first) {
   current_.recipe = first;
-  if (apply_) thread_.start("recipe", [this] { run(); });
 }
 
 RecipeSwitch::~RecipeSwitch() { stop(); }
+
+void RecipeSwitch::start() {
+  if (apply_) thread_.start("recipe", [this] { run(); });
+}
 
 void RecipeSwitch::stop() { thread_.stop(); }
 

@@ -17,8 +17,8 @@ namespace orbwatch::app::pipeline {
 /// Selects recipes while frames run: sets the cameras on a thread of its own, off the frame path,
 /// and assigns each frame set to a recipe by its exposure. A set exposed after a request never
 /// belongs to an earlier recipe. Queue: one request; the newest wins.
-/// Thread rule: request and has_failed on any thread, selection_at on the pipeline's, stop on the
-/// main.
+/// Thread rule: request and has_failed on any thread, selection_at on the pipeline's, start and
+/// stop on the main.
 class RecipeSwitch {
  public:
   /// Sets the cameras' controls for a recipe; may wait for them.
@@ -35,12 +35,16 @@ class RecipeSwitch {
     bool operator==(const Selection&) const = default;
   };
 
-  /// `first` is selected from the start; its settings are applied already. Starts the thread.
-  /// Without `apply` no recipe sets a camera, and each one is selected as soon as it is requested.
+  /// `first` is selected from the start; its settings are applied already. Without `apply` no
+  /// recipe sets a camera, and each one is selected as soon as it is requested.
   RecipeSwitch(std::size_t first, Apply apply);
   ~RecipeSwitch();
   RecipeSwitch(const RecipeSwitch&) = delete;
   RecipeSwitch& operator=(const RecipeSwitch&) = delete;
+
+  /// Starts the thread that sets the cameras, which have been started: from then on they refuse a
+  /// control that changes what a count means. Sets those of a request that was made before.
+  void start();
 
   /// Requests a recipe; does not wait for the cameras.
   void request(std::size_t recipe);

@@ -22,7 +22,7 @@ void approach(remap::PhotometricMatch& match, const remap::PhotometricMatch& to,
   }
 }
 
-/// So little that it does not show.
+/// True if the match is too small to be visible.
 bool is_unchanged(const remap::PhotometricMatch& match) {
   return std::ranges::all_of(match.channels, [](const auto& channel) {
     return std::abs(channel.gain - 1) < 0.01 && std::abs(channel.offset) < 0.001;

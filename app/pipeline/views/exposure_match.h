@@ -15,6 +15,7 @@
 #include "app/pipeline/worker_pool.h"
 #include "hal/clock.h"
 #include "hal/sync/frame_set.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/remap/remap.h"
 
@@ -37,10 +38,10 @@ class ExposureMatch {
   /// time and all cameras have delivered. Does not allocate.
   void follow(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
 
-  /// For what is shown of a camera; null: as it is. Valid until the next follow().
+  /// Match for the display of a camera; null: none. Valid until the next follow().
   const remap::PhotometricTable* table(std::size_t camera) const;
 
-  /// How often pictures were compared. On any thread.
+  /// Number of comparisons. On any thread.
   std::uint64_t comparisons() const { return comparisons_; }
 
  private:
@@ -70,7 +71,7 @@ class ExposureMatch {
   hal::TimePoint due_{};
   std::atomic<bool> sampled_{false};  ///< cameras_' pictures are the comparison's
   Tables tables_;
-  std::mutex mutex_;
+  hal::PriorityMutex mutex_;
   Tables found_;            ///< under mutex_
   bool has_found_ = false;  ///< under mutex_
   std::atomic<std::uint64_t> comparisons_{0};

@@ -37,8 +37,8 @@ class FramePyramids {
   /// camera. A format that is not sharpened, or a strength without memory: the picture as it is.
   std::span<const Picture> pictures(std::size_t camera, int levels, double sharpness = 0) const;
 
-  /// What brings the camera's pictures to the exposure of another, for display; null: nothing. It
-  /// outlives their use.
+  /// Match that brings the camera's pictures to the exposure of another, for display; null: none.
+  /// It outlives their use.
   void set_match(std::size_t camera, const remap::PhotometricTable* table) {
     matches_[camera] = table;
   }

@@ -34,7 +34,7 @@ PanTiltZoom::~PanTiltZoom() { stop(); }
 template <class Change>
 Result<std::uint64_t> PanTiltZoom::request(std::size_t view, const Change& change) {
   if (view >= views_.size()) {
-    return fail("view " + std::to_string(view) + ": is none that can be pointed; there are " +
+    return fail("view " + std::to_string(view) + ": cannot be pointed; there are " +
                 std::to_string(views_.size()) + ", from 0");
   }
   const auto refused = [&](const std::string& reason) {

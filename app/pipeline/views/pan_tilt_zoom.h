@@ -19,7 +19,8 @@
 
 namespace orbwatch::app::pipeline {
 
-/// Where a view looks: all of a ViewSpec but its kind and size, which a view keeps. Degrees.
+/// Direction and field of view, degrees: all of a ViewSpec but its kind and size, which a view
+/// keeps.
 struct Pointing {
   optics::YawPitchRoll orientation;
   std::optional<double> h_fov;
@@ -63,7 +64,7 @@ class PanTiltZoom {
   /// Waits for no compilation, neither allocates nor frees: the thread frees the old one.
   void exchange(std::size_t view, std::unique_ptr<ViewRenderer>& in_use);
 
-  /// How many requests of a view a newer one replaced before exchange().
+  /// Number of requests of a view that a newer one replaced before exchange().
   std::uint64_t superseded(std::size_t view) const;
 
   /// Waits for the compilation under way, and drops waiting requests; repeating it does nothing.

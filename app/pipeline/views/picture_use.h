@@ -10,16 +10,15 @@
 
 namespace orbwatch::app::pipeline {
 
-/// So many different strengths may one camera's picture be sharpened by; each takes a copy of its
-/// sharpened plane.
+/// Limit of different strengths of sharpening per camera; each needs a copy of the sharpened plane.
 inline constexpr std::size_t kMaxSharpnesses = 4;
 
-/// What views sample of one camera's picture.
+/// Parts of one camera's picture that views sample.
 class PictureUse {
  public:
   struct Sharpened {
     double sharpness = 0;
-    remap::SourceArea area;  ///< that is sampled of it
+    remap::SourceArea area;  ///< its sampled part
   };
 
   int mip_levels = 0;

@@ -50,7 +50,7 @@ class ViewBuffers {
   /// One that no sink gets: as many as a recipe measures views of that size. Does not allocate.
   std::shared_ptr<View> acquire_unshared(const ViewPlan& plan);
 
-  /// Of one size, those that sinks get.
+  /// Number of buffers of one size that sinks get.
   std::size_t count(int width, int height) const;
 
  private:

@@ -54,7 +54,7 @@ class ViewChannel {
   /// Hands over what was rendered last; null: every buffer was held.
   ViewPtr take();
 
-  /// Of another projection or other weights, but of the plan's size and sources: see PanTiltZoom.
+  /// Renderer in use; its projection and weights may differ from the plan's: see PanTiltZoom.
   std::unique_ptr<ViewRenderer>& renderer() { return renderer_; }
 
  private:

@@ -21,11 +21,11 @@ struct ShownColours {
   remap::ColourMap map;
 };
 
-/// By source; null, or beyond the end: as planned.
+/// Chosen colours by source; null, or beyond the end: the planned ones.
 using ChosenColours = std::span<const std::unique_ptr<const ShownColours>>;
 
 /// Other colours for the one-channel cameras of a view while frames run, of measured views, too:
-/// only the picture changes that people look at. Whoever asks makes the tables and frees those that
+/// only the picture changes that people look at. The caller makes the tables and frees those that
 /// were replaced; the frame path exchanges them between two sets.
 /// Thread rule: set_map, set_range and adopt on any thread, exchange on the pipeline's.
 class ViewColours {

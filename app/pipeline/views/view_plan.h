@@ -16,7 +16,7 @@
 
 namespace orbwatch::app::pipeline {
 
-/// How the sources of a view are merged where several see a pixel.
+/// Rule for merging the sources of a view that see the same pixel.
 enum class Combine {
   Mix,       ///< blended by weight wherever they see well
   Sharpest,  ///< blended by weight and resolution: the sharper camera dominates
@@ -30,10 +30,10 @@ struct ViewSource {
   optics::BallProjection ball;
   double weight = 1;            ///< above 0; in a mixed view, beside its resolution
   remap::ColourMap colour_map;  ///< for one-channel formats: see make_colour_map()
-  /// How much the picture is sharpened to be shown, 0..remap::kMaxSharpness, if its format is and
-  /// pixels are interpolated; 0: not at all.
+  /// Strength of sharpening for display, 0..remap::kMaxSharpness, for formats that are sharpened
+  /// and interpolated pixels; 0: none.
   double sharpness = 0;
-  SourceColours colours{};  ///< what colour_map is made of
+  SourceColours colours{};  ///< settings that colour_map is made of
 };
 
 inline bool is_colour(const ViewSource& source) {

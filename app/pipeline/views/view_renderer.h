@@ -17,13 +17,13 @@
 
 namespace orbwatch::app::pipeline {
 
-/// Where a view's pixels go; each of the view's size.
+/// Targets of a view's pixels; each has the view's size.
 struct RenderTarget {
   /// Rgb, Bgr, Grey; or raw, the one format of all sources: Grey, Y16, Rgb or Rgb16. No data: none.
   MutablePicture picture;
   ImageView<std::uint8_t> validity;  ///< one Validity per pixel
-  /// Where the source of the raw plane goes beside the picture: its luminance as Grey, or its
-  /// counts in its own 16 bit format. No data: nowhere.
+  /// Target of the raw plane's source beside the picture: its luminance as Grey, or its counts in
+  /// its own 16 bit format. No data: none.
   MutablePicture measured;
   bool is_raw = false;  ///< the picture: one-channel sources are not colour-mapped
   ChosenColours colours{};
@@ -44,7 +44,7 @@ class ViewRenderer {
   void add_measured_use(PictureUses& uses) const;
   void add_use(PictureUses& uses) const;
 
-  /// Whether its sources count temperature: then render() fills View::counts, too.
+  /// True if its sources count temperature: then render() fills View::counts, too.
   bool has_counts() const { return raw_ && counts_temperature(plan_.sources[*raw_]); }
 
   /// Fills `view`, its picture in the format that it has, from the frames of `set`, of which

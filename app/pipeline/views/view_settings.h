@@ -16,8 +16,7 @@
 
 namespace orbwatch::app::pipeline {
 
-/// What a camera's picture is sharpened by unless stated: about as sharp as bicubic interpolation
-/// would be.
+/// Default strength of sharpening: about as sharp as bicubic interpolation.
 inline constexpr double kSharpness = 0.8;
 inline constexpr Range kSharpnesses = Range::between(0, remap::kMaxSharpness);
 

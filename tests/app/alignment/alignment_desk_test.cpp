@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "app/alignment/found_outline.h"
+#include "proc/align/rotation_fit.h"
 #include "tests/app/alignment/rig_with_pose.h"
 #include "tests/support/picture_of_mat.h"
 
@@ -214,16 +216,65 @@ TEST_F(AlignmentDeskTest, StatesTheErrorAtTheWorkPiece) {
   watch.drifted.emplace();
   watch.drifted->level = align::DriftLevel::Warning;
   watch.drifted->outline = desk->report(0).in_force->outline;
+  watch.drifted->cause = align::DriftCause::BallMoved;
   watch.drifted->direction_sigma = optics::degrees(0.005);
   ASSERT_EQ(desk->correct(0), CommandResult::Done);
   const AlignmentReport report = report_after_work();
   ASSERT_TRUE(report.proposed) << report.refusal;
-  EXPECT_NEAR(report.proposed->work_sigma, 2, 1e-9);
+  // The error of the alignment in force, 0.3 deg, and that of the drift.
+  EXPECT_NEAR(report.proposed->work_sigma, 400 * std::hypot(optics::radians(0.3), 0.005), 1e-9);
   EXPECT_TRUE(report.proposed->quality.ends_with(
-      "sigma 0.29 deg, at the work piece 2.00 mm, below 3.46 mm in 19 of 20 alignments"))
+      "sigma 0.41 deg, of that 0.29 deg by the drift, at the work piece 2.90 mm, below 5.01 mm in "
+      "19 of 20 alignments"))
       << report.proposed->quality;
   ASSERT_EQ(desk->accept(0), CommandResult::Done);
   EXPECT_EQ(accepted.entries.at(0).quality, report.proposed->quality);
+}
+
+TEST_F(AlignmentDeskTest, StatesNoErrorOfACorrectionWhoseCauseIsUnknown) {
+  site.work_distance = 400;
+  watch.drifted.emplace();
+  watch.drifted->level = align::DriftLevel::Warning;
+  watch.drifted->outline = desk->report(0).in_force->outline;
+  watch.drifted->direction_sigma = 0.02;
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  const AlignmentReport report = report_after_work();
+  ASSERT_TRUE(report.proposed) << report.refusal;
+  EXPECT_FALSE(signals::is_valid(report.proposed->direction_sigma));
+  EXPECT_FALSE(signals::is_valid(report.proposed->work_sigma));
+  EXPECT_NE(report.proposed->quality.find("sigma unknown"), std::string::npos)
+      << report.proposed->quality;
+}
+
+void expect_same_place(const AlignmentReport& a, const AlignmentReport& b) {
+  ASSERT_TRUE(a.proposed && b.proposed) << a.refusal << b.refusal;
+  EXPECT_NEAR(a.proposed->outline.centre.u, b.proposed->outline.centre.u, 1e-6);
+  EXPECT_NEAR(a.proposed->outline.centre.v, b.proposed->outline.centre.v, 1e-6);
+  EXPECT_NEAR(a.proposed->rotation.yaw, b.proposed->rotation.yaw, 1e-6);
+  EXPECT_NEAR(a.proposed->rotation.pitch, b.proposed->rotation.pitch, 1e-6);
+  EXPECT_NEAR(a.proposed->rotation.roll, b.proposed->rotation.roll, 1e-6);
+}
+
+/// The drift is measured against the alignment in force, whatever is proposed.
+TEST_F(AlignmentDeskTest, CorrectsADriftOnceHoweverOftenItIsAskedTo) {
+  watch.drifted.emplace();
+  watch.drifted->level = align::DriftLevel::Warning;
+  watch.drifted->turn = align::rotation_about({0.004, -0.002, 0.01});
+  watch.drifted->outline = desk->report(0).in_force->outline;
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  const AlignmentReport once = report_after_work();
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  const AlignmentReport twice = report_after_work();
+  EXPECT_EQ(twice.steps, 2U);
+  expect_same_place(twice, once);
+  // After a step that is right already, and after one that is not.
+  ASSERT_EQ(desk->turn(0, {0, 0, 0}), CommandResult::Done);
+  expect_same_place(desk->report(0), once);
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  expect_same_place(report_after_work(), once);
+  ASSERT_EQ(desk->turn(0, {5, 0, 0}), CommandResult::Done);
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  expect_same_place(report_after_work(), once);
 }
 
 TEST_F(AlignmentDeskTest, PutsAStatedAlignmentInForceByTheRecordAndARestart) {

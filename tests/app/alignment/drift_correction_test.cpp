@@ -7,6 +7,7 @@
 
 #include "app/model/alignment/rig_alignment.h"
 #include "proc/align/register/registration.h"
+#include "proc/align/rotation_fit.h"
 #include "tests/app/alignment/rig_with_pose.h"
 
 namespace orbwatch::app {
@@ -78,6 +79,51 @@ TEST(DriftCorrection, MovesTheOutlineWhenTheBallMoved) {
   ASSERT_TRUE(alignment);
   EXPECT_EQ(alignment->outline->centre.u, drift.outline.centre.u);
   EXPECT_TRUE(alignment->registration);
+}
+
+/// A camera with an outline alone.
+optics::Rig rig_without_lens(const optics::Outline& outline) {
+  optics::Rig rig = drifting_rig();
+  optics::RigCamera& camera = rig.cameras[0];
+  camera.registration = align::by_outline(rig, camera)->registration;
+  camera.outline = outline;
+  camera.distance = 12;
+  camera.pose.reset();
+  camera.intrinsics.reset();
+  return rig;
+}
+
+TEST(DriftCorrection, RollsACameraWithoutALens) {
+  for (const optics::Outline& outline :
+       {optics::Outline{{410, 390}, 300, 300, 0}, optics::Outline{{410, 390}, 310, 300, 25}}) {
+    optics::Rig rig = rig_without_lens(outline);
+    align::DriftState drift;
+    drift.level = align::DriftLevel::Alarm;
+    drift.motion = {3, -2, 0.01, 0.05};
+    drift.outline = align::moved(outline, drift.motion);
+    const optics::Vec2 moved = align::after(drift.motion, outline, pixel(rig));
+    const auto alignment = corrected(rig, rig.cameras[0], drift);
+    ASSERT_TRUE(alignment) << alignment.error().message;
+    ASSERT_TRUE(apply({std::nullopt, {*alignment}}, rig));
+    EXPECT_NEAR(pixel(rig).u, moved.u, 1e-6);
+    EXPECT_NEAR(pixel(rig).v, moved.v, 1e-6);
+  }
+}
+
+/// The ball is beside the picture's middle, so that its line is not the lens's axis.
+TEST(DriftCorrection, RollsACameraWithALensAboutTheLineToTheBall) {
+  constexpr double kRoll = 0.03;
+  const optics::Rig rig = drifting_rig();
+  Turned truth;
+  const optics::Pose& pose = *rig.cameras[0].pose;
+  const optics::Vec3 sight = optics::normalized(pose.rotation * (rig.ball.centre - pose.position));
+  truth.rig = rig;
+  truth.rig.cameras[0].pose->rotation = align::rotation_about(sight * kRoll) * pose.rotation;
+  truth.drift.turn.reset();
+  truth.drift.outline = *optics::ball_projection(truth.rig, truth.rig.cameras[0])->outline();
+  truth.drift.motion = {0, 0, std::cos(kRoll) - 1, std::sin(kRoll)};
+  EXPECT_GT(std::hypot(pixel(rig).u - pixel(truth.rig).u, pixel(rig).v - pixel(truth.rig).v), 1);
+  expect_corrects(rig, truth);
 }
 
 TEST(DriftCorrection, RefusesWhatWasNotMeasured) {

@@ -268,6 +268,59 @@ TEST_F(BackupProgram, ARunningDaemonLeavesTheFilesForItsNextStart) {
   EXPECT_EQ(said, "") << "once";
 }
 
+TEST_F(BackupProgram, ARestoreRemovesAConfirmationThatWasNotCompleted) {
+  ASSERT_EQ(back_up({"--without-secrets"}), 0) << said;
+  for (const bool at_start : {false, true}) {
+    write_file(path("new/site.toml"), "of the trial");
+    for (const char* trial : {"trial.json", "trial-running.json", "trial-confirmed.json"}) {
+      write_file(path("new-state/" + std::string(trial)), "{}", 0600);
+    }
+    ASSERT_EQ(restore({"--check"}), 0) << said;
+    EXPECT_TRUE(states_below(path("new-state")).contains("trial-confirmed.json"));
+    ASSERT_EQ(at_start ? restore({"--at-start"}) : restore(), 0) << said;
+    ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+    const auto state = states_below(path("new-state"));
+    for (const char* trial : {"trial.json", "trial-running.json", "trial-confirmed.json"}) {
+      EXPECT_FALSE(state.contains(trial)) << trial << ", at the start: " << at_start;
+    }
+    EXPECT_EQ(states_below(path("new"))["site.toml"], states_below(path("old"))["site.toml"]);
+  }
+}
+
+/// The page runs the command as the user of the service.
+TEST_F(BackupProgram, AFolderThatTheServiceMayNotWriteIsReportedBeforeTheStart) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  ASSERT_EQ(back_up(with_passphrase()), 0) << said;
+  write_file(path("new/keys/key.pem"), "another key", 0644);
+  std::filesystem::permissions(path("new/keys"), std::filesystem::perms(0755));
+  std::filesystem::create_directories(path("new-state"));
+  for (const char* own : {"new", "new-state", "backup.tar.zst", "passphrase"}) {
+    give_to_service(path(own));
+  }
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0777));
+  const auto with = [&](const char* option) {
+    auto options = with_passphrase();
+    options.emplace_back(option);
+    return options;
+  };
+  EXPECT_TRUE(as_service(0027, [&] {
+    const std::string reason = full("new/keys") + ": its files cannot be replaced (Permission";
+    const auto is_refused = [&](const char* option) {
+      return restore(with(option)) == 1 && said.find(reason) != said.npos;
+    };
+    return is_refused("--check") && is_refused("--at-start");
+  }));
+  EXPECT_FALSE(std::filesystem::exists(path("new-state/restore-pending.tar")));
+  EXPECT_EQ(states_below(path("new")).size(), 1U);
+  // The same folder, with the key of the backup: it need not be written.
+  write_file(path("new/keys/key.pem"), "key-of-kim", 0640);
+  give_to_service(path("new/keys/key.pem"));
+  EXPECT_TRUE(as_service(0027, [&] {
+    return restore(with("--at-start")) == 0 && run_on("new", {"restore", "--pending"}) == 0;
+  }));
+  EXPECT_EQ(states_below(path("new")), states_below(path("old")));
+}
+
 TEST_F(BackupProgram, AResetAtTheStartRemovesWhatTheDaemonWritesAtItsEnd) {
   write_file(path("delivered/site.toml"), app::files::kValid, 0644);
   write_file(path("delivered/rig.toml"), app::files::kRig, 0644);
@@ -292,18 +345,45 @@ TEST_F(BackupProgram, ABackupOnTheBootPartitionIsRestoredOnce) {
   const std::filesystem::path boot = path("boot");
   std::filesystem::create_directories(boot);
   std::filesystem::copy(path("backup.tar.zst"), boot / "restore.tar.zst");
-  write_file(boot / "passphrase", "correct horse battery\r\n");
   write_file(boot / "cameras", "a=SN-9\r\n");
   ::setenv("ORBWATCH_RESTORE_FOLDER", boot.c_str(), 1);
   ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
-  EXPECT_THAT(said, HasSubstr("restored from " + boot.string()));
-  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "hash-of-kim");
+  EXPECT_THAT(said, HasSubstr("\nrestored from " + boot.string() +
+                              " without its secrets: put their passphrase into " +
+                              (boot / "passphrase").string()));
+  EXPECT_FALSE(states_below(path("new-state")).contains("users.json"));
   EXPECT_THAT(states_below(path("new"))["site.toml"].first, HasSubstr("camera = \"SN-9\""));
   EXPECT_EQ(states_below(path("new"))[kept + "event.mcap"].first, "recording");
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_EQ(said, "") << "the passphrase is still missing";
+  // Its passphrase, as an editor of Windows writes it, restores the secrets alone.
+  write_file(path("new/recipes/one.toml"), "changed since");
+  write_file(path("new-state/trial-confirmed.json"), "{}", 0600);
+  write_file(boot / "passphrase.txt",
+             "\xEF\xBB\xBF"
+             "correct horse battery\r\n");
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("secrets restored from " + boot.string() + "\n"));
+  EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "hash-of-kim");
+  EXPECT_EQ(states_below(path("new"))["keys/key.pem"].first, "key-of-kim");
+  EXPECT_EQ(states_below(path("new"))["recipes/one.toml"].first, "changed since");
+  EXPECT_TRUE(states_below(path("new-state")).contains("trial-confirmed.json"));
   write_file(path("new-state/users.json"), "changed since", 0600);
   ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
   EXPECT_EQ(said, "");
   EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "changed since");
+  // A copy is another file with the same backup: it is recognised by its checksum, once.
+  const auto record = [this] {
+    return states_below(path("new-state"))["restored-from-boot"].first;
+  };
+  const std::string first_record = record();
+  std::filesystem::copy(boot / "restore.tar.zst", boot / "copy");
+  std::filesystem::rename(boot / "copy", boot / "restore.tar.zst");
+  ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
+  EXPECT_EQ(said, "");
+  EXPECT_NE(record(), first_record);
+  EXPECT_EQ(record().substr(0, record().find('\n')),
+            first_record.substr(0, first_record.find('\n')));
 
   write_file(path("old/recipes/one.toml"), "another note");
   ASSERT_EQ(back_up({"--without-secrets"}), 0) << said;
@@ -311,6 +391,7 @@ TEST_F(BackupProgram, ABackupOnTheBootPartitionIsRestoredOnce) {
                         std::filesystem::copy_options::overwrite_existing);
   ASSERT_EQ(run_on("new", {"restore", "--pending"}), 0) << said;
   EXPECT_EQ(states_below(path("new"))["recipes/one.toml"].first, "another note");
+  EXPECT_FALSE(states_below(path("new-state")).contains("trial-confirmed.json"));
   EXPECT_EQ(states_below(path("new-state"))["users.json"].first, "changed since");
   ::unsetenv("ORBWATCH_RESTORE_FOLDER");
 }
@@ -360,6 +441,15 @@ TEST_F(BackupProgram, AConfigurationThatIsNotValidIsRefused) {
   EXPECT_EQ(run_on("old", {"backup"}), 2);
   EXPECT_EQ(back_up({"--without-secrets", "--passphrase-file", "x"}), 2);
   EXPECT_EQ(run_on("new", {"restore"}), 2);
+}
+
+/// Several machines on one board have a service each.
+TEST_F(BackupProgram, HelpNamesTheServiceOfAnotherMachineAsWell) {
+  for (const char* command : {"restore", "reset"}) {
+    ASSERT_EQ(run({command, "--help"}), 0) << said;
+    EXPECT_THAT(said, HasSubstr("systemctl stop orbwatch, or orbwatch@NAME with --config "
+                                "/etc/orbwatch/NAME/site.toml"));
+  }
 }
 
 TEST_F(BackupProgram, AShortPassphraseIsRefused) {

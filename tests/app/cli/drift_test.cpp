@@ -36,14 +36,17 @@ class DriftCommand : public CommandLine {
     return out;
   }
 
-  /// Writes a folder with 12 pictures; those from `jump` on are moved.
-  std::string sequence(const std::string& name, int jump, double u, double v) {
+  /// Writes a folder with pictures; those from `jump` on are moved.
+  std::string sequence(const std::string& name, int jump, double u, double v, int pictures = 12) {
     std::filesystem::create_directory(path(name));
-    for (int n = 0; n < 12; ++n) {
+    for (int n = 0; n < pictures; ++n) {
       write(name + "/f" + std::to_string(n) + ".png", n < jump ? ball(0, 0) : ball(u, v));
     }
     return path(name);
   }
+
+  /// At 3 pictures per second it lasts longer than the learning of the zero.
+  std::string standing() { return sequence("standing", 20, 0, 0, 20); }
 
   nlohmann::json drift(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"drift", "--rig", write("rig.toml", kRig)});
@@ -54,13 +57,29 @@ class DriftCommand : public CommandLine {
 };
 
 TEST_F(DriftCommand, SaysGoodOfAStandingCamera) {
-  const auto state = drift({"A=" + sequence("still", 12, 0, 0)});
+  const auto state = drift({"A=" + standing(), "--rate", "3"});
   EXPECT_EQ(state["state"], "good");
-  EXPECT_EQ(state["frames"], 12);
-  EXPECT_EQ(state["measured"], 8);
+  EXPECT_EQ(state["reason"], "");
+  EXPECT_EQ(state["frames"], 20);
+  EXPECT_EQ(state["measured"], 8) << "12 pictures were the zero's";
   EXPECT_TRUE(state["first_warning_frame"].is_null());
   EXPECT_TRUE(state["first_alarm_frame"].is_null());
   EXPECT_LT(state["direction_error_deg"].get<double>(), 0.05);
+}
+
+TEST_F(DriftCommand, MeasuresNothingInASequenceThatEndsBeforeTheZeroIsLearnt) {
+  const std::string standing = this->standing();
+  const auto state = drift({"A=" + standing});  // at 30 pictures per second
+  EXPECT_EQ(state["state"], "not measured");
+  EXPECT_EQ(state["reason"], "the zero of the drift is being learnt");
+  EXPECT_EQ(state["measured"], 0);
+  EXPECT_EQ(state["not_measured"]["the zero of the drift is being learnt"], 16);
+  EXPECT_EQ(state["direction_error_deg"], 0);
+  EXPECT_EQ(state["outline"]["centre"], nlohmann::json({160.0, 120.0}));
+  ASSERT_EQ(run({"drift", "--rig", path("rig.toml"), "A=" + standing}), 0) << said;
+  EXPECT_NE(said.find("not measured: the zero of the drift is being learnt"), std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("deg rms"), std::string::npos) << said;
 }
 
 TEST_F(DriftCommand, NamesThePictureOfAJumpAndTheCorrectedOutline) {

@@ -320,7 +320,7 @@ TEST_F(Place, RefusesMistakesWithTheReason) {
                    {"--image"}},
            Mistake{"half a tag", with({"--tag", "3=1,2,3"}), {"--tag", "ID="}},
            Mistake{"no such tag", with({"--tag", "600=120,0,0,500,1,0,0,0,1,0"}), {"36h11"}},
-           Mistake{"a bent tag", with({"--tag", "3=0,0,0,9,0,0,9,9,0,0,5,0"}), {"no square"}},
+           Mistake{"a bent tag", with({"--tag", "3=0,0,0,9,0,0,9,9,0,0,5,0"}), {"not a square"}},
            Mistake{"a tag twice", with({"--tags", "DIR/twice.txt"}), {"tag 3", "twice"}},
            Mistake{"a list that is none", with({"--tags", "DIR/none.txt"}), {"none.txt:2"}},
            Mistake{

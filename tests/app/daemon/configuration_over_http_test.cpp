@@ -105,7 +105,9 @@ TEST_F(ConfigurationOverHttp, KnowsAFileByOneNameOnly) {
   for (const std::string& name : names) {
     const Answer refused = ask("try", {{"files", {{name, contents(config) + "# other\n"}}}});
     EXPECT_EQ(refused.status, 409) << name;
-    EXPECT_THAT(refused.body, HasSubstr("is no path from the folder of the configuration")) << name;
+    EXPECT_THAT(refused.body,
+                HasSubstr("must be a relative path inside the configuration's folder"))
+        << name;
   }
   EXPECT_TRUE(shown()["trial"].is_null());
 }
@@ -212,7 +214,8 @@ TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
                 HasSubstr("no file of the configuration"));
     for (const char* name : {"../site.toml", "/etc/passwd", "", ".", "a/../recipe.toml",
                              "./recipe.toml", "recipe.toml/"}) {
-      EXPECT_THAT(refusal(what, {{name, kSmallRecipe}}), HasSubstr("no path from the folder"))
+      EXPECT_THAT(refusal(what, {{name, kSmallRecipe}}),
+                  HasSubstr("relative path inside the configuration's folder"))
           << name;
     }
     EXPECT_THAT(refusal(what, json::object()), HasSubstr("no texts"));

@@ -26,7 +26,8 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 5; })) << daemon.output();
   const auto heartbeat = read("system_heartbeat");
   EXPECT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") != heartbeat; }));
-  EXPECT_EQ(read("system_state"), 1) << "running";
+  // On a busy machine a camera that is late degrades the state for a moment.
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_state") == 1; })) << "running";
   // Truth of the pool: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
   // from the ball at (120, 60, 430). Occasionally a spark is larger.
   const auto is_near = [&](const char* name, double truth, double tolerance) {
@@ -102,7 +103,7 @@ bool is_of_a_library(const std::string& name) {
          std::ranges::count(std::array{"tev", "gc", "lease"}, name) > 0;
 }
 
-TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndTenMore) {
+TEST_F(Daemon, HasAThreadForEachCameraAndWorkerTwoPerInterfaceAndElevenMore) {
   constexpr std::ptrdiff_t kCameras = 2, kWorkers = 1, kInterfaces = 2;  // Modbus and DDS
   constexpr std::ptrdiff_t kOfSanitizer = tests::kHasThreadSanitizer ? 1 : 0;
   std::string site = "[pipeline]\nworkers = 1\n" + small_machine();
@@ -125,7 +126,7 @@ TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndTenMore) {
       own += name + ", ";
       ++count;
     }
-    return count <= kCameras + kWorkers + kInterfaces + 10 + kOfSanitizer;
+    return count <= kCameras + kWorkers + 2 * kInterfaces + 11 + kOfSanitizer;
   })) << own;
 }
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <mutex>
+#include <utility>
 
+#include "app/daemon/appliance.h"
+#include "app/daemon/configuration/configuration_choice.h"
 #include "app/files/runtime/calibration_file.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/app/daemon/hung_thread.h"
@@ -165,6 +171,62 @@ TEST_F(Service, ARestartOfItsOwnChangesNoRecipeAndStartsNothing) {
   EXPECT_NE(read("system_state"), kStopped);
 }
 
+/// Calls `during_start` while the appliance starts, when the interfaces listen already.
+class StartWatcher : public app::Sink {
+ public:
+  explicit StartWatcher(std::function<void()> during_start)
+      : during_start_(std::move(during_start)) {}
+  Result<> start() override { return {}; }
+  void stop() override {}
+  app::KeptViews keeps() const override {
+    during_start_();
+    return {};
+  }
+  void accept(const app::ViewPtr&) override {}
+  void accept(const app::Status& status) override {
+    const std::lock_guard lock(mutex_);
+    status_ = status;
+    changed_.notify_all();
+  }
+  /// Waits for a frame set that was exposed after `moment`.
+  app::Status wait_for_set_after(hal::TimePoint moment) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(2),
+                                  [&] { return status_.frame_set > 0 && status_.stamp > moment; }));
+    return status_;
+  }
+
+ private:
+  const std::function<void()> during_start_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  app::Status status_;
+};
+
+TEST_F(Service, ARecipeSelectedDuringTheStartReplacesTheOneFromBeforeARestart) {
+  using app::CommandCode;
+  std::string recipe = kSmallRecipe;
+  recipe.replace(recipe.find("\"pool\""), 6, "\"other\"");
+  std::ofstream(folder / "other.toml") << recipe;
+  auto site = app::files::resolve(
+      write_config(small_machine() + "[[recipe]]\nnumber = 2\nfile = \"other.toml\"\n"));
+  ASSERT_TRUE(site) << site.error().message;
+  std::get<app::DdsSettings>(site->site.sinks).enabled = false;
+  app::CommandRecord(site->state_folder)
+      .carry_out({app::kPlcClient, sequence}, {CommandCode::SelectRecipe, {1}},
+                 [](const app::Command&) { return app::CommandResult::Done; });
+  StartWatcher watcher([this] {
+    write_command(port, static_cast<std::uint16_t>(CommandCode::SelectRecipe), {2}, ++sequence);
+    EXPECT_EQ(read("command_result"), std::int64_t(app::CommandResult::Done));
+  });
+  const auto appliance =
+      app::daemon::Appliance::make(*site, {[] { return Result<>(); }, [] {}},
+                                   [](const app::CalibrationEntry&) { return Result<>(); });
+  ASSERT_TRUE(appliance) << appliance.error().message;
+  ASSERT_TRUE((*appliance)->start({&watcher}));
+  EXPECT_EQ(watcher.wait_for_set_after(hal::Clock::now()).recipe, 2);
+}
+
 TEST_F(Service, TheJournalHasCameraAndFault) {
   const std::string log = folder.path() / "daemon.log";
   std::ofstream(log) << "";
@@ -237,6 +299,30 @@ TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
   EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
   EXPECT_EQ(read("system_configuration_refused"), 0) << "it is mended";
   ::unsetenv("STATE_DIRECTORY");
+}
+
+TEST_F(Service, AConfigurationThatNoRestartAcceptsStartsWithAWarning) {
+  const std::string config = write_config(small_machine() + "[machine]\nsource = \"http\"\n");
+  const std::string refusal =
+      "machine.source is http, but [web] is not enabled; set enabled = true in [web], or another "
+      "source";
+  {
+    Subprocess daemon = start(config);
+    EXPECT_TRUE(says(daemon, refusal + "; correct it: no restart or alignment is accepted before"))
+        << daemon.output();
+    EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
+    daemon.send(SIGTERM);
+    EXPECT_EQ(daemon.wait(), 0);
+  }
+  const auto site = app::files::resolve(config);
+  ASSERT_TRUE(site) << site.error().message;
+  app::CalibrationEntry entry;
+  entry.method = "by hand";
+  entry.quality = "good";
+  entry.alignment.cameras.push_back({.camera = "colour"});
+  const auto accepted = app::daemon::check_acceptance(config, *site, entry);
+  ASSERT_FALSE(accepted);
+  EXPECT_EQ(accepted.error().message, "a restart would be refused: " + refusal);
 }
 
 TEST_F(Service, AWrongConfigurationWithoutALastGoodOneIsRefused) {

@@ -66,6 +66,22 @@ TEST_F(ConfigurationFile, SaysWhereThePageIsServed) {
   EXPECT_EQ(https_port_of(own), 8443);
 }
 
+TEST_F(ConfigurationFile, AnEmptyPathNamesNothing) {
+  const auto c = parse("state_folder = \"\"\n" + kValid +
+                       "[simulation]\nconnected = \"\"\n[recorder]\nfolder = \"\"\n"
+                       "[snapshot]\nfolder = \"\"\n[dds]\nprofile = \"\"\n"
+                       "[web]\ncertificate = \"\"\nkey = \"\"\n");
+  ASSERT_TRUE(c) << c.error().message;
+  const auto& web = std::get<WebSettings>(c->site.sinks);
+  for (const std::filesystem::path& path :
+       {c->site.state_folder, c->site.simulation.connected,
+        std::get<RecorderSettings>(c->site.sinks).folder,
+        std::get<SnapshotSettings>(c->site.sinks).folder,
+        std::get<DdsSettings>(c->site.sinks).profile, web.certificate, web.key}) {
+    EXPECT_EQ(path, "");
+  }
+}
+
 TEST_F(ConfigurationFile, MayRepeatTheSizeThatTheRigStates) {
   const auto c = parse(replaced("name = \"a\"", "name = \"a\"\nwidth = 100\nheight = 80"));
   ASSERT_TRUE(c) << c.error().message;
@@ -134,6 +150,35 @@ TEST_F(ConfigurationFile, ACameraMayBeTriggeredByCommandsOnly) {
   EXPECT_EQ(c->site.cameras[0].trigger_source, kSoftwareSource);
 }
 
+/// Configuration of two triggered cameras, with the trigger keys of each.
+std::string both_triggered(const std::string& first, const std::string& second) {
+  const std::string other =
+      "[[line]]\nname = \"layer\"\nuse = \"trigger_in\"\nline_name = \"LAYER\"\n";
+  return triggered("trigger_mode = \"line\"\n" + first) + other +
+         "[[camera]]\nname = \"spare\"\nback_end = \"replay\"\ntrigger_mode = \"line\"\n" + second +
+         "\n[camera.replay]\nsource = \"pictures\"\n";
+}
+
+const std::string kByStart = "trigger_source = \"start\"";
+
+TEST_F(ConfigurationFile, SeveralCamerasMayHaveTheSameTriggers) {
+  const std::string keys = kByStart + "\ntrigger_activation = \"falling_edge\"";
+  const auto c = parse(both_triggered(keys, keys + "\ntrigger_delay_us = 100"));
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->site.cameras[1].trigger_source, "start");
+}
+
+TEST_F(ConfigurationFile, AddressesMayNameAnInterfaceThatIsPluggedInLater) {
+  const auto c = parse(
+      kValid + "[modbus]\naddress = \"fe80::1%none0\"\n[web]\naddress = " + "\"fe80::1%none0\"\n");
+  ASSERT_TRUE(c) << c.error().message;
+}
+
+TEST_F(ConfigurationFile, AServerThatIsOffMayHaveAnyAddress) {
+  const auto c = parse(kValid + "[modbus]\nenabled = false\naddress = \"localhost\"\n");
+  ASSERT_TRUE(c) << c.error().message;
+}
+
 class ConfigurationRefusal : public ConfigurationFile,
                              public testing::WithParamInterface<Refusal> {};
 
@@ -152,6 +197,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"TriggerFromAnOutput",
                 triggered("trigger_mode = \"line\"\ntrigger_source = \"flash\""),
                 {"camera.trigger_source", "\"flash\"", "trigger_in", "start, flash"}},
+        Refusal{"TriggersFromTwoLines",
+                both_triggered(kByStart, "trigger_source = \"layer\""),
+                {"site.toml:34:", "camera.trigger_source", "\"layer\", but camera \"a\"",
+                 "\"start\"", "must be the same"}},
+        Refusal{"TriggersFromALineAndFromCommands",
+                both_triggered(kByStart, "trigger_source = \"software\""),
+                {"camera.trigger_source", "\"software\", but camera \"a\"", "\"start\""}},
+        Refusal{"TriggersAtTwoActivations",
+                both_triggered(kByStart, kByStart + "\ntrigger_activation = \"any_edge\""),
+                {"camera.trigger_activation", "\"any_edge\", but camera \"a\"", "\"rising_edge\"",
+                 "must be the same"}},
         Refusal{"StrobeWithoutSource",
                 triggered("", replaced("source = \"start\"", "", kLines)),
                 {"line.source", "strobe"}},
@@ -171,6 +227,9 @@ INSTANTIATE_TEST_SUITE_P(
                 triggered("", kLines + "[[line]]\nname = \"out\"\nuse = \"trigger_out\"\n"
                                        "line_name = \"OUT\"\nrate = 100\nwidth_us = 10000\n"),
                 {"line.width_us", "period"}},
+        Refusal{"ModbusOnAName",
+                kValid + "[modbus]\naddress = \"localhost\"\n",
+                {"site.toml:16: modbus.address", "not a numeric address", "0.0.0.0"}},
         Refusal{"PageOnAName",
                 kValid + "[web]\naddress = \"ball.example\"\n",
                 {"web.address", "not a numeric address", "0.0.0.0"}},
@@ -214,6 +273,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"RigFileMissing",
                 replaced("rig.toml", "nowhere.toml"),
                 {"site.toml:2: rig: ", "/nowhere.toml: cannot be read"}},
+        Refusal{"RigNamedByNothing",
+                replaced("\"rig.toml\"", "\"\""),
+                {"site.toml:2: rig: is empty; it must name a file"}},
+        Refusal{"ReplayOfNothing",
+                replaced("\"pictures\"", "\"\""),
+                {"site.toml:5: camera.back_end", "source is empty", "it must name pictures"}},
+        Refusal{"KeysInNoFolder",
+                kValid + "[dds.security]\nfolder = \"\"\n",
+                {"site.toml:16: dds.security.folder: is empty", "keys/enclaves/appliance"}},
         Refusal{"RigBroken",
                 replaced("rig.toml", "broken.toml"),
                 {"site.toml:2: rig: ", "/broken.toml:9: camera.outline.alpha: ", "above 180"}},
@@ -230,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BallInTheConfiguration",
                 replaced("[camera.replay]",
                          "[camera.ball]\ncentre = [50, 40]\nradius = 30\n[camera.replay]"),
-                {"site.toml:6: camera.ball: is no key"}},
+                {"site.toml:6: camera.ball: is not a key"}},
         Refusal{"UnknownWord",
                 replaced("\"replay\"", "\"webcam\""),
                 {"site.toml:5:", "back_end", "webcam", "simulated, replay, v4l2"}},

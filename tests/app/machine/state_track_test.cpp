@@ -104,6 +104,18 @@ TEST(StateTrack, NoValueOutlivesTheTimeout) {
   expect_unknown(machine);
 }
 
+TEST(StateTrack, TheTimeoutBeginsWithTheArrivalOfTheLastState) {
+  StateTrack track(kTimeout, milliseconds(150));
+  track.add(state(1000, 10));
+  track.add(state(1020, 14));
+  EXPECT_FALSE(track.is_silent(at_ms(1270)));
+  EXPECT_EQ(reported(track, 1270).quality, MachineQuality::Predicted);
+  EXPECT_TRUE(track.is_silent(at_ms(1271)));
+  EXPECT_EQ(reported(track, 1271).quality, MachineQuality::Stale);
+  track.add(state(1121, 15));
+  EXPECT_EQ(reported(track, 1100).quality, MachineQuality::Stale) << "a gap has no delay";
+}
+
 TEST(StateTrack, AGapBetweenTwoStatesIsNotBridged) {
   StateTrack track(kTimeout);
   track.add(state(1000, 10));

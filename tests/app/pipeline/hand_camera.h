@@ -60,6 +60,15 @@ class HandCamera : public hal::Camera {
     act([this] { deliver(hal::make_frame_pool(format_, 8, 8, 1).acquire()); });
   }
 
+ protected:
+  /// Executes `action` on the camera's thread before it returns.
+  void act(std::function<void()> action) {
+    std::unique_lock lock(mutex_);
+    action_ = std::move(action);
+    work_.notify_all();
+    done_.wait(lock, [this] { return !action_; });
+  }
+
  private:
   Result<hal::StreamFormat> do_configure(const hal::StreamRequest&) override {
     return hal::StreamFormat{format_, {}, kHandCameraSize, kHandCameraSize, 100};
@@ -71,12 +80,6 @@ class HandCamera : public hal::Camera {
       action_ = nullptr;
       done_.notify_all();
     }
-  }
-  void act(std::function<void()> action) {
-    std::unique_lock lock(mutex_);
-    action_ = std::move(action);
-    work_.notify_all();
-    done_.wait(lock, [this] { return !action_; });
   }
   void paint(hal::FrameBuffer& buffer, std::uint16_t bright) const {
     for (int y = 0; y < kHandCameraSize; ++y) {

@@ -11,6 +11,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/pipeline/pipeline.h"
@@ -33,9 +35,12 @@ class ListingSink : public Sink {
     if (on_view) on_view(*view);
   }
   void accept(const Status& status) override {
-    if (status.frame_set == reported_) return;
-    reported_ = status.frame_set;
-    add("status", status.frame_set);
+    if (status.frame_set == 0) return;
+    const bool is_first = std::exchange(reported_, status.frame_set) != status.frame_set;
+    if (!is_first && !lists_heartbeats) return;
+    add(is_first ? "status" : "heartbeat", status.frame_set);
+    const std::lock_guard lock(mutex_);
+    selected_.push_back(status.selected_view);
   }
   /// The first `count` publications, once they have come.
   std::vector<std::string> first(std::size_t count) {
@@ -46,6 +51,13 @@ class ListingSink : public Sink {
             published_.begin() + static_cast<std::ptrdiff_t>(std::min(count, published_.size()))};
   }
 
+  /// The selected view of each status that is listed.
+  std::vector<std::size_t> selected() {
+    const std::lock_guard lock(mutex_);
+    return selected_;
+  }
+
+  bool lists_heartbeats = false;             ///< lists further statuses of a set, too
   std::function<void(const View&)> on_view;  ///< on the pipeline's thread; set before it starts
 
  private:
@@ -59,6 +71,7 @@ class ListingSink : public Sink {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> published_;
+  std::vector<std::size_t> selected_;
 };
 
 /// Three display views and a measured one.
@@ -114,6 +127,20 @@ TEST_F(PictureOrder, EveryViewGetsItsTurnWhileSetsAlwaysArriveMeanwhile) {
     expected.insert(expected.end(), {"status " + set, "measured " + set, view});
   }
   EXPECT_EQ(sink.first(expected.size()), expected);
+}
+
+TEST_F(PictureOrder, BetweenPicturesThatTakeLongTheHeartbeatContinues) {
+  sink.lists_heartbeats = true;
+  sink.on_view = [&](const View& view) {
+    if (view.name == "measured") pipeline->select_view(2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time that a picture takes
+  };
+  start();
+  EXPECT_EQ(sink.first(8), (Published{"status 1", "measured 1", "heartbeat 1", "a 1", "heartbeat 1",
+                                      "b 1", "heartbeat 1", "c 1"}));
+  std::vector<std::size_t> selected = sink.selected();
+  selected.resize(4);
+  EXPECT_EQ(selected, std::vector<std::size_t>(4, 0)) << "commands wait for the end of the set";
 }
 
 }  // namespace

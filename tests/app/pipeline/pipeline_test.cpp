@@ -3,157 +3,36 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <condition_variable>
-#include <mutex>
-#include <numeric>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "app/pictures/colour_maps.h"
 #include "proc/optics/rotation.h"
-#include "tests/app/pipeline/hand_camera.h"
-#include "tests/app/pipeline/measurement/measured_recipe.h"
+#include "tests/app/pipeline/pipeline_case.h"
 
 namespace orbwatch::app::pipeline {
 namespace {
 
-double mean_of(const View& view) {
-  const auto samples = view.picture.samples<std::uint8_t>();
-  const std::size_t count = std::size_t{3} * samples.width * samples.height;
-  return std::accumulate(samples.data, samples.data + count, 0.0) / static_cast<double>(count);
-}
-
-constexpr KeptViews kKept{2, 1};
-
-/// Records views and status; the test waits for the status that it expects.
-class RecordingSink : public Sink {
+/// Camera with a control that is the scale of its counts.
+class ScaledCamera : public HandCamera {
  public:
-  Result<> start() override { return {}; }
-  void stop() override {}
-  PictureNeeds needs(std::size_t view, hal::TimePoint) override {
-    const std::lock_guard lock(mutex_);
-    return needs_[view];
-  }
-  KeptViews keeps() const override { return kKept; }
-  void accept(const ViewPtr& view) override {
-    const std::lock_guard lock(mutex_);
-    if (hold_) held_.push_back(view);
-    const bool has_picture = view->picture.planes[0].data != nullptr;
-    brightness_[view->index] = has_picture ? mean_of(*view) : 0;
-    formats_[view->index] = has_picture ? std::optional(view->picture.format) : std::nullopt;
-    views_.push_back(std::string(view->name));
-    if (view->index == 0) shown_set_ = view->frame_set;
-    changed_.notify_all();
-  }
-  void accept(const Status& status) override {
-    const std::lock_guard lock(mutex_);
-    if (status.frame_set == 1 && status_.frame_set == 0) views_before_status_ = views_.size();
-    status_ = status;
-    changed_.notify_all();
-  }
-  void hold_views() {
-    const std::lock_guard lock(mutex_);
-    hold_ = true;
-  }
-  template <class Condition>
-  Status wait_for(Condition condition) {
-    std::unique_lock lock(mutex_);
-    EXPECT_TRUE(
-        changed_.wait_for(lock, std::chrono::seconds(30), [&] { return condition(status_); }));
-    return status_;
-  }
-  /// Waits for the display view of a set, which comes last.
-  void wait_for_pictures(std::uint64_t set) {
-    std::unique_lock lock(mutex_);
-    EXPECT_TRUE(
-        changed_.wait_for(lock, std::chrono::seconds(30), [&] { return shown_set_ == set; }));
-  }
-  void need(std::size_t view, const PictureNeeds& needs) {
-    const std::lock_guard lock(mutex_);
-    needs_[view] = needs;
-  }
-  /// Format of a view's newest picture.
-  std::optional<PixelFormat> format(std::size_t view) {
-    const std::lock_guard lock(mutex_);
-    return formats_[view];
-  }
-  /// Mean sample of a view's newest picture.
-  double brightness(std::size_t view) {
-    const std::lock_guard lock(mutex_);
-    return brightness_[view];
-  }
-  std::vector<std::string> views() {
-    const std::lock_guard lock(mutex_);
-    return views_;
-  }
-  /// Number of views that came before the first set's status.
-  std::size_t views_before_status() {
-    const std::lock_guard lock(mutex_);
-    return views_before_status_;
+  ScaledCamera() : HandCamera("scaled", PixelFormat::Y16) {}
+
+  std::optional<hal::CountScale> count_scale() const override {
+    return hal::CountScale{scale_, "its control"};
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  Status status_;
-  std::vector<std::string> views_;
-  std::size_t views_before_status_ = 0;
-  std::uint64_t shown_set_ = 0;
-  std::vector<ViewPtr> held_;
-  bool hold_ = false;
-  std::array<PictureNeeds, 2> needs_{need_of(PixelFormat::Rgb), need_of(PixelFormat::Rgb)};
-  std::array<std::optional<PixelFormat>, 2> formats_;
-  std::array<double, 2> brightness_{};
-};
-
-class PipelineTest : public testing::Test {
- protected:
-  PipelineTest() {
-    add_camera("thermal", PixelFormat::Y16);
-    add_camera("grey", PixelFormat::Grey);
-    plan.workers = 1;
-    plan.deadline = std::chrono::seconds(20);
-    plan.sync.window = plan.sync.max_wait = std::chrono::milliseconds(1);
-    plan.views.push_back(view("seen", 0, {1}));
-    plan.recipes.push_back(compiled(recipe_plan(view("measured", 1, {0, 1}), 30000, 0.04)));
-    plan.view_count = 2;
+  Result<> do_set(std::string_view control, double value) override {
+    if (control != "Scale") return Camera::do_set(control, value);
+    scale_ = value;
+    return {};
   }
 
-  void add_camera(const std::string& name, PixelFormat format) {
-    auto camera = std::make_unique<HandCamera>(name, format);
-    plan.formats.push_back(camera->configure({}).value());
-    cameras.push_back(camera.get());
-    plan.cameras.push_back(std::move(camera));
-  }
-  ViewPlan view(const std::string& name, std::size_t index,
-                const std::vector<std::size_t>& sources) const {
-    const auto projection =
-        optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 120, {}, 96, 64}).value();
-    ViewPlan view{index,       name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear,
-                  std::nullopt};
-    for (const std::size_t n : sources) {
-      const auto ball = optics::BallProjection::make(
-                            optics::BallModel::make(optics::BallModel::Kind::Exact, 350).value(),
-                            {{49.5, 49.5}, 48, 48, 0}, {})
-                            .value();
-      const double high = plan.formats[n].format == PixelFormat::Y16 ? 65535 : 255;
-      view.sources.push_back({n, plan.formats[n], ball, 1, {colour_map_table("hot"), 0, high}});
-    }
-    return view;
-  }
-  void start() {
-    pipeline.emplace(std::move(plan));
-    ASSERT_TRUE(pipeline->start({&sink}));
-  }
-  void expose_both(std::uint16_t bright) {
-    const auto moment = hal::Clock::now();
-    cameras[1]->expose(200, moment);
-    cameras[0]->expose(bright, moment);
-  }
-
-  PipelinePlan plan;
-  std::vector<HandCamera*> cameras;
-  RecordingSink sink;
-  std::optional<Pipeline> pipeline;
+  std::atomic<double> scale_ = 0.04;
 };
 
 TEST_F(PipelineTest, MakesViewsAndMeasuresThem) {
@@ -305,51 +184,6 @@ TEST_F(PipelineTest, ACameraWithoutAStatedRateHasThatOfItsFrames) {
   EXPECT_GE(status.load, 0.2) << "of a second it would be a hundredth";
 }
 
-TEST_F(PipelineTest, ATriggeredCameraGivesOneFrameForEachTriggerAndTheRestIsMissed) {
-  const auto trigger = std::make_shared<hal::FrameTrigger>(
-      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
-  plan.triggers = {trigger, nullptr};
-  start();
-  constexpr std::uint64_t kTriggers = 12;
-  std::uint64_t frames = 0;
-  for (std::uint64_t i = 1; i <= kTriggers; ++i) {
-    trigger->on_edge({hal::Edge::Rising, hal::Clock::now()});
-    if (i % 3 == 1) continue;  // the next edge comes before the camera exposes
-    cameras[0]->expose(40000);
-    cameras[0]->expose(40000);  // without a trigger: in no set
-    ++frames;
-    sink.wait_for([&](const Status& s) { return s.frame_set == frames; });
-  }
-  const Status status =
-      sink.wait_for([&](const Status& s) { return s.cameras[0].triggers == kTriggers; });
-  EXPECT_EQ(status.trigger, kTriggers);
-  EXPECT_EQ(status.cameras[0].frames, frames);
-  EXPECT_EQ(status.cameras[0].missed, kTriggers - frames);
-  EXPECT_EQ(status.cameras[0].lost, 0U) << "frames without a trigger are not lost";
-}
-
-TEST_F(PipelineTest, AFrameStampedAtItsEndBelongsToTheTriggerThatBeganIt) {
-  const auto trigger = std::make_shared<hal::FrameTrigger>(
-      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
-  plan.triggers = {trigger, nullptr};
-  constexpr std::chrono::milliseconds kPeriod{10}, kExposure{6}, kReadout{8};
-  cameras[0]->set_stamps({.readout_time = kReadout});
-  start();
-  const auto begin = hal::Clock::now();
-  trigger->on_edge({hal::Edge::Rising, begin});
-  for (std::uint64_t part = 1; part <= 5; ++part) {
-    // The next part's edge comes before this one's frame has arrived.
-    const auto edge = begin + (part - 1) * kPeriod;
-    trigger->on_edge({hal::Edge::Rising, edge + kPeriod});
-    cameras[0]->expose(40000, {.exposure_start = edge + kExposure + kReadout,
-                               .stamp_source = hal::StampSource::FrameEnd,
-                               .exposure_time = kExposure});
-    const Status status = sink.wait_for([part](const Status& s) { return s.frame_set == part; });
-    EXPECT_EQ(status.trigger, part);
-    EXPECT_EQ(status.cameras[0].missed, 0U);
-  }
-}
-
 TEST_F(PipelineTest, ACameraWithoutStampsIsAFaultWhereItIsJoinedWithAnother) {
   start();
   cameras[1]->expose(200);
@@ -361,37 +195,6 @@ TEST_F(PipelineTest, ACameraWithoutStampsIsAFaultWhereItIsJoinedWithAnother) {
       sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::NoTimeStamps; });
   EXPECT_EQ(status.cameras[0].frames, 0U);
   EXPECT_EQ(status.cameras[1].fault, hal::Fault::None);
-}
-
-TEST_F(PipelineTest, ACameraFaultMissesItsTriggers) {
-  const auto trigger = std::make_shared<hal::FrameTrigger>(
-      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
-  plan.triggers = {trigger, nullptr};
-  start();
-  trigger->on_edge({hal::Edge::Rising, hal::Clock::now()});
-  cameras[0]->fail_with(hal::Fault::Unplugged);
-  const Status status = sink.wait_for([](const Status& s) { return s.cameras[0].missed == 1; });
-  EXPECT_EQ(status.cameras[0].triggers, 1U);
-  EXPECT_EQ(status.cameras[0].frames, 0U);
-}
-
-TEST_F(PipelineTest, ADamagedFrameMissesItsTriggerAndIsNoFault) {
-  const auto trigger = std::make_shared<hal::FrameTrigger>(
-      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
-  plan.triggers = {trigger, nullptr};
-  start();
-  const auto first = hal::Clock::now();
-  const auto second = first + std::chrono::milliseconds(1);
-  trigger->on_edge({hal::Edge::Rising, first});
-  trigger->on_edge({hal::Edge::Rising, second});
-  cameras[0]->expose_damaged(first);
-  cameras[0]->expose(40000, second);
-  const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 1; });
-  EXPECT_EQ(status.trigger, 2U) << "still waited for its frame";
-  EXPECT_EQ(status.cameras[0].fault, hal::Fault::None);
-  EXPECT_EQ(status.cameras[0].damaged, 1U);
-  EXPECT_EQ(status.cameras[0].missed, 1U);
-  EXPECT_EQ(status.cameras[0].frames, 1U);
 }
 
 TEST_F(PipelineTest, ReportsWhichProcessInputsAreActive) {
@@ -446,35 +249,57 @@ TEST_F(PipelineTest, AnAbsentCameraIsAFaultAndTakenUpWhenItComes) {
   EXPECT_EQ(status.state, SystemState::Running);
 }
 
+TEST_F(PipelineTest, AnAbsentCameraWhoseCountsARecipeRescalesStaysAbsent) {
+  auto scaled = std::make_unique<ScaledCamera>();
+  plan.formats[0] = scaled->configure({}).value();
+  plan.formats[0].kelvin_per_count = 0.04;
+  plan.cameras[0] = std::move(scaled);
+  plan.absent[0] = true;
+  RecipePlan second = recipe_plan(view("second", 2, {0, 1}), 30000, 0.04, 2);
+  second.controls.push_back({{"scaled", 0}, "Scale", 0.4});
+  plan.recipes.push_back(compiled(std::move(second)));
+  plan.view_count = 3;
+  start();
+  ASSERT_EQ(pipeline->select_recipe(2), CommandResult::Done);
+  sink.wait_for([](const Status& s) { return s.recipe == 2; });
+  const auto admitted = pipeline->admit(0, pipeline->formats()[0]);
+  ASSERT_FALSE(admitted);
+  EXPECT_EQ(admitted.error().message,
+            "the recipe's controls change what a count means: its control");
+}
+
 TEST_F(PipelineTest, ACameraOfAnotherFormatThanExpectedIsSeenOnceItsViewsAreCompiled) {
   const auto formats = plan.formats;
-  const auto compile = [&] {
-    return compiled(recipe_plan(view("measured", 1, {0, 1}), 30000, 0.04));
-  };
-  auto real = compile();
+  auto real = recipe_of_both(30000, 0.04);
   const auto seen = view("seen", 0, {1});
   // The files do not state its format, so 8 bits are expected; it delivers 16.
   plan.formats[0].format = PixelFormat::Grey;
-  plan.recipes[0] = compiled(recipe_plan(view("measured", 1, {0, 1}), 100, 0));
+  plan.recipes[0] = recipe_of_both(100, 0);
+  plan.view_count = 3;
   plan.absent[0] = true;
   plan.colour_maps = {colour_map_table("grey")};
   start();
   ASSERT_EQ(pipeline->set_colour_range(1, 0, {0, 10}), CommandResult::Done);
-  cameras[1]->expose(200);
-  sink.wait_for([](const Status& s) { return s.frame_set == 1; });
+  latch_alarm();
   Recompiled recompiled;
   recompiled.formats = formats;
   recompiled.sources[0] = seen.sources;
   recompiled.recipes.push_back(std::move(real));
   ASSERT_TRUE(pipeline->take_over(std::move(recompiled)));
   EXPECT_EQ(pipeline->formats()[0].format, PixelFormat::Y16);
+  ASSERT_TRUE(sink.delivered(0)) << "before its first frame set";
+  EXPECT_EQ(sink.delivered(0)->format, PixelFormat::Y16);
   ASSERT_TRUE(pipeline->admit(0, formats[0]));
   cameras[0]->expose(40000);  // it paces from now on
   expose_both(40000);
   const Status status =
       sink.wait_for([](const Status& s) { return s.regions[0].quality != Quality::NotMeasured; });
-  EXPECT_EQ(status.state, SystemState::Running);
+  EXPECT_EQ(status.cameras[0].fault, hal::Fault::None);
   EXPECT_NEAR(status.regions[0].signals.hot_spot_peak_temperature, 40000 * 0.04 - 273.15, 0.1);
+  EXPECT_EQ(status.alarms[0].alarm.state, signals::AlarmState::LatchedUnacknowledged)
+      << "nobody has acknowledged it";
+  EXPECT_EQ(sink.events(),
+            (std::vector{signals::AlarmEventKind::Raised, signals::AlarmEventKind::Cleared}));
 }
 
 TEST_F(PipelineTest, SelectsAViewOnCommand) {

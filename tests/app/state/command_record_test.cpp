@@ -169,6 +169,54 @@ TEST_F(CommandRecordTest, AResultThatCannotBeNotedIsToldOnceAndInterruptedAfterA
               ElementsAre(Entry{{kPlcClient, 7}, kStopCode, CommandResult::Interrupted}));
 }
 
+TEST_F(CommandRecordTest, EachAnsweredCommandWaitsForTheAudit) {
+  const auto record = open();
+  const Command select{CommandCode::SelectRecipe, {7}, Giver("over Modbus")};
+  record->carry_out({kPlcClient, 7}, select, [](const Command&) { return CommandResult::Busy; });
+  carry_out(*record, {5, 1});
+  const auto first = record->take_unaudited();
+  ASSERT_TRUE(first);
+  EXPECT_GT(first->time.time_since_epoch().count(), 0);
+  EXPECT_EQ(first->id, (CommandId{kPlcClient, 7}));
+  EXPECT_EQ(first->command.code, CommandCode::SelectRecipe);
+  EXPECT_EQ(first->command.arguments[0], 7);
+  EXPECT_EQ(first->command.giver.name(), "over Modbus");
+  EXPECT_EQ(first->result, CommandResult::Busy);
+  const auto second = record->take_unaudited();
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->id, (CommandId{5, 1}));
+  EXPECT_EQ(second->result, CommandResult::Done);
+  EXPECT_FALSE(record->take_unaudited());
+}
+
+TEST_F(CommandRecordTest, ACommandThatCannotBeRecordedWaitsForTheAuditToo) {
+  CommandRecord record("/proc/orbwatch");
+  carry_out(record, {kPlcClient, 7});
+  const auto refused = record.take_unaudited();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->result, CommandResult::NotCarriedOut);
+}
+
+TEST_F(CommandRecordTest, AnAuditedCommandDoesNotWaitForTheAudit) {
+  const auto record = open();
+  const auto done = [](const Command&) { return CommandResult::Done; };
+  EXPECT_EQ(record->carry_out_audited({5, 1}, kStop, done), CommandResult::Done);
+  EXPECT_THAT(record->entries(), ElementsAre(Entry{{5, 1}, kStopCode, CommandResult::Done}));
+  EXPECT_FALSE(record->take_unaudited());
+}
+
+TEST_F(CommandRecordTest, WithoutAnAuditTheFirstCommandsWaitAndTheOthersAreCounted) {
+  CommandRecord record;
+  constexpr std::uint64_t kLost = 5;
+  for (std::uint64_t number = 1; number <= CommandRecord::kMostUnaudited + kLost; ++number) {
+    EXPECT_EQ(carry_out(record, {kPlcClient, number}), CommandResult::Done);
+  }
+  EXPECT_EQ(record.lost_unaudited(), kLost);
+  std::uint64_t number = 0;
+  while (const auto waiting = record.take_unaudited()) EXPECT_EQ(waiting->id.number, ++number);
+  EXPECT_EQ(number, CommandRecord::kMostUnaudited);
+}
+
 TEST_F(CommandRecordTest, ForgetsTheClientThatIsSilentLongestButNeverThePlc) {
   auto record = open();
   carry_out(*record, {kPlcClient, 7});

@@ -22,6 +22,11 @@ TEST(Refusal, ComparesNumbersOfVersions) {
   EXPECT_LT(compare_versions("0.1.0", "0.1.0.1"), 0);
   EXPECT_GT(compare_versions("2", "1.99"), 0);
   EXPECT_EQ(compare_versions("1.2.3", "1.2.3"), 0);
+  EXPECT_LT(compare_versions("2.0", "2.01"), 0);
+  EXPECT_LT(compare_versions("26.1", "26.02"), 0);
+  EXPECT_LT(compare_versions("1.09", "1.10"), 0);
+  EXPECT_GT(compare_versions("1.0", "1"), 0);
+  EXPECT_EQ(compare_versions("2.01", "2.1"), 0);
 }
 
 TEST(Refusal, TakesANewerVersion) { EXPECT_EQ(refusal_of(newer()), std::nullopt); }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/backup/events/restored_events.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <functional>
 #include <iterator>
 #include <set>
@@ -16,6 +20,7 @@
 #include "app/ports/recorder/events/event_folder.h"
 #include "app/ports/recorder/events/event_name.h"
 #include "hal/atomic_file.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::cli::backup {
 namespace {
@@ -108,6 +113,17 @@ class EventReader {
   std::set<std::string> files_;
 };
 
+/// Excludes another restore into the folder while the descriptor is open: each removes the
+/// unfinished events of one that was interrupted. Errors: one runs; as the folder has them.
+Result<hal::FileDescriptor> exclude_restore(const fs::path& events) {
+  hal::FileDescriptor folder(::open(events.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.is_open() && ::flock(folder.get(), LOCK_EX | LOCK_NB) == 0) return folder;
+  if (errno == EWOULDBLOCK) {
+    return fail(events.string() + ": another restore adds events; repeat this one afterwards");
+  }
+  return fail(events.string() + ": cannot be locked: " + std::system_category().message(errno));
+}
+
 /// Adds an event that is not there yet.
 Result<> add_event(FrameReader& frames, const ManifestEvent& event, const EventFolder& folder,
                    DiskChanges& disk) {
@@ -175,10 +191,12 @@ Result<> place_events(FrameReader& frames, const std::vector<ManifestEvent>& eve
                       const EventPlace& place, DiskChanges& disk) {
   if (auto made = make_folders(place.recordings, disk); !made) return made;
   return as_owner_of(place.recordings, [&]() -> Result<> {
-    const std::vector<ManifestEvent> missing = missing_events(events, place);
-    if (auto room = check_room(missing, place.recordings, place.reserve); !room) return room;
     const EventFolder folder(place.recordings);
     if (auto made = make_folders(folder.path(), disk); !made) return made;
+    const auto excluded = exclude_restore(folder.path());
+    if (!excluded) return tl::unexpected(excluded.error());
+    const std::vector<ManifestEvent> missing = missing_events(events, place);
+    if (auto room = check_room(missing, place.recordings, place.reserve); !room) return room;
     return read_events(frames, events, [&](const ManifestEvent& event) {
       const bool is_missing =
           std::ranges::binary_search(missing, event.name, {}, &ManifestEvent::name);

@@ -34,7 +34,8 @@ Result<> check_frames(FrameReader& frames, const std::vector<ManifestEvent>& eve
 
 /// The same, and adds the missing events; those that are there stay as they are. Each appears when
 /// its checksum is right, as a whole or not at all. Has the rights of the owner of recordings, see
-/// as_owner_of(). Errors: also of the disk. Those before the error are added.
+/// as_owner_of(). Errors: also of the disk; another call adds events there. Those before the error
+/// are added.
 Result<> place_events(FrameReader& frames, const std::vector<ManifestEvent>& events,
                       const EventPlace& place, DiskChanges& disk);
 

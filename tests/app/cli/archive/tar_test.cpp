@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <random>
 
 #include "app/cli/archive/compression.h"
+#include "app/cli/archive/tar_header.h"
 #include "tests/app/cli/archive/frames.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +88,38 @@ TEST(Tar, TheSystemsTarUnpacksIt) {
   ASSERT_EQ(::stat((folder / "first").c_str(), &about), 0);
   EXPECT_EQ(about.st_mode & 0777U, 0640U);
   EXPECT_EQ(about.st_mtime, kMade.time_since_epoch().count());
+}
+
+TEST(Tar, SizesAboveEightGibibytesAreThoseOfTheSystemsTar) {
+  constexpr std::uint64_t kMostOctal = (std::uint64_t{1} << 33) - 1,
+                          kMost = (std::uint64_t{1} << 63) - 1;
+  for (const std::uint64_t size :
+       {kMostOctal, kMostOctal + 1, std::uint64_t{0x123456789a}, kMost}) {
+    const auto header = tar_header({"file", size}, kMade);
+    ASSERT_TRUE(header) << header.error().message;
+    const auto read = parse_tar_header(*header);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->size, size);
+  }
+  EXPECT_FALSE(tar_header({"file", kMost + 1}, kMade));
+  const tests::TemporaryFolder folder;
+  const std::string archive = folder / "a.tar";
+  const std::uint64_t size = 9'876'543'210;
+  std::ofstream(archive, std::ios::binary) << tar_header({"file", size}, kMade).value_or("");
+  // The file's bytes and the end have no place on the disk.
+  std::filesystem::resize_file(archive, 3 * kBlock + tar_padded(size));
+  tests::Subprocess program({"/bin/tar", "-tvf", archive}, folder / "said");
+  ASSERT_EQ(program.wait(), 0) << program.output();
+  EXPECT_THAT(program.output(), HasSubstr(" " + std::to_string(size) + " "));
+}
+
+TEST(Tar, ASizeThatNoFileHasIsRefused) {
+  constexpr std::size_t kSize = 124;
+  for (const std::string first : {"\x80\x01", "\xff", "\x81"}) {
+    std::string tar = tar_with("file");
+    tar.replace(kSize, 12, first + std::string(12 - first.size(), '\xff'));
+    EXPECT_THAT(refusal_of(with_right_checksum(tar)), HasSubstr("size is damaged"));
+  }
 }
 
 TEST(Tar, NamesThatLeaveTheFolderAreRefused) {

@@ -127,6 +127,15 @@ TEST(BackupFile, AWrongPassphraseOrAChangedManifestOpensNothing) {
   EXPECT_FALSE(open_secrets(*read, kPassphrase));
 }
 
+TEST(BackupFile, SecretsSealedWithAByteOrderMarkAreOpenedWithout) {
+  const std::string marked = std::string("\xEF\xBB\xBF") + kPassphrase;
+  auto read = parse_backup(bytes_of(example(), marked.c_str()));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_FALSE(open_secrets(*read, "correct horse batterz"));
+  ASSERT_TRUE(open_secrets(*read, kPassphrase));
+  EXPECT_EQ(read->backup.secrets, example().secrets);
+}
+
 TEST(BackupFile, FilesThatAreNotThoseOfTheManifestAreRefused) {
   const Archive right = unpacked(bytes_of(example(), ""));
   ASSERT_EQ(right.size(), 3U);
@@ -182,6 +191,21 @@ TEST(BackupFile, ANewerFormatIsRefusedAndMoreMembersAreNot) {
            {"{", "["}}) {
     EXPECT_THAT(refusal_of(packed(with_manifest(part, instead))), HasSubstr("is damaged"));
   }
+}
+
+TEST(BackupFile, MoreThanARestoreReadsIsRefused) {
+  Backup large = example();
+  large.secrets.clear();
+  const std::string picture(std::size_t{16} << 20, 'x');
+  for (int n = 0; n < 9; ++n) {
+    large.files.push_back({"configuration/" + std::to_string(n) + ".toml", picture, 0640});
+  }
+  const auto refused = backup_bytes(large, "");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("more than 128 MiB"));
+  EXPECT_THAT(refused.error().message, HasSubstr("configuration/0.toml"));
+  large.files.resize(large.files.size() - 2);
+  EXPECT_TRUE(parse_backup(bytes_of(large, "")));
 }
 
 TEST(BackupFile, DamagedBytesAreRefused) {

@@ -6,7 +6,10 @@
 #include <exception>
 
 #include "app/cli/archive/tar.h"
+#include "app/cli/backup/service_stop.h"
+#include "app/state/state_folder.h"
 #include "tests/app/cli/backup/site.h"
+#include "tests/support/service_user.h"
 
 namespace orbwatch::app::cli::backup {
 namespace {
@@ -51,6 +54,20 @@ class FailingDisk : public DiskChanges {
   int count_ = 0;
 };
 
+/// A disk that refuses to write in one folder.
+class ClosedFolderDisk : public DiskChanges {
+ public:
+  explicit ClosedFolderDisk(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  Result<> write(const std::filesystem::path& file, std::string_view bytes, mode_t mode) override {
+    if (file.parent_path() == folder_) return fail("the folder is closed");
+    return DiskChanges::write(file, bytes, mode);
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
 class Placement : public testing::Test {
  protected:
   Placement() {
@@ -62,6 +79,19 @@ class Placement : public testing::Test {
     write_file(old.places.state / "logins.json", "of a user", 0600);
     write_file(old.places.configuration / "gone/old.toml", "not needed any more");
     before = old.states();
+  }
+
+  void give_all_to_service() const {
+    tests::give_to_service(old.folder.path());
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(old.folder.path())) {
+      tests::give_to_service(entry.path());
+    }
+  }
+  /// Makes a folder of the configuration one of an administrator: `sudo mkdir`.
+  void close(const std::string& name) const {
+    const auto folder = old.places.configuration / name;
+    ASSERT_EQ(::chown(folder.c_str(), 0, tests::kService), 0);
+    ASSERT_EQ(::chmod(folder.c_str(), 02755), 0);
   }
 
   FileStates expected() const {
@@ -160,6 +190,106 @@ TEST_F(Placement, WhenThePuttingBackFailsItIsSaidAndMayBeRepeated) {
   DiskChanges mended;
   EXPECT_EQ(undo_unfinished(old.places, mended).value_or(false), true);
   EXPECT_EQ(old.states(), before);
+}
+
+TEST_F(Placement, AFileThatIsRightIsNotWritten) {
+  write_file(old.places.configuration / "keys/key.pem", "new key", 0600);
+  before = old.states();
+  ClosedFolderDisk disk(old.places.configuration / "keys");
+  const auto replaced = replace_files(old.places, files, disk, removed);
+  ASSERT_TRUE(replaced) << replaced.error().message;
+  EXPECT_EQ(old.states(), expected());
+}
+
+TEST_F(Placement, AFileThatNeverChangedIsNotPutBack) {
+  for (const mode_t mode : {0600U, 0640U}) {
+    write_file(old.places.configuration / "keys/key.pem", mode == 0600U ? "old key" : "new key",
+               mode);
+    before = old.states();
+    ClosedFolderDisk disk(old.places.configuration / "keys");
+    const auto replaced = replace_files(old.places, files, disk, removed);
+    ASSERT_FALSE(replaced);
+    EXPECT_EQ(replaced.error().message, "the folder is closed; nothing was changed");
+    EXPECT_EQ(old.states(), before);
+  }
+}
+
+TEST_F(Placement, AFolderThatTheServiceMayNotWriteIsNamedFirst) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  write_file(old.places.configuration / "keys/key.pem", "old key", 0644);
+  before = old.states();
+  give_all_to_service();
+  const auto is_refused = [&](const std::string& folder) {
+    return tests::as_service(0027, [&] {
+      DiskChanges disk;
+      const auto checked = check_replaceable(old.places, files, removed);
+      const auto replaced = replace_files(old.places, files, disk, removed);
+      return !checked && !replaced && checked.error().message == replaced.error().message &&
+             checked.error().message.starts_with((old.places.configuration / folder).string() +
+                                                 ": its files cannot be replaced (Permission");
+    });
+  };
+  close("keys");
+  EXPECT_TRUE(is_refused("keys"));
+  tests::give_to_service(old.places.configuration / "keys");
+  close("gone");
+  EXPECT_TRUE(is_refused("gone")) << "of a file that is to be removed";
+  tests::give_to_service(old.places.configuration / "gone");
+  std::filesystem::create_directory(old.places.configuration / "deep");
+  close("deep");
+  EXPECT_TRUE(is_refused("deep")) << "in which a folder is to be made";
+  EXPECT_EQ(old.states(), before);
+}
+
+TEST_F(Placement, AnEmptyFolderThatTheServiceMayNotRemoveStays) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  const std::string name = "configuration/closed/open/old.toml";
+  write_file(old.places.at(name), "not needed any more");
+  give_all_to_service();
+  close("closed");
+  EXPECT_TRUE(tests::as_service(0027, [&] {
+    DiskChanges disk;
+    return replace_files(old.places, files, disk, {name}).has_value();
+  }));
+  EXPECT_TRUE(std::filesystem::is_empty(old.places.configuration / "closed/open"));
+}
+
+TEST_F(Placement, AKeyThatRootRestoresIsReadByTheService) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  std::filesystem::permissions(old.folder.path(), std::filesystem::perms(0755));
+  ASSERT_EQ(::chown(old.places.configuration.c_str(), 0, tests::kService), 0);
+  ASSERT_EQ(::chmod(old.places.configuration.c_str(), 02775), 0);
+  tests::give_to_service(old.places.state);
+  DiskChanges disk;
+  ASSERT_TRUE(replace_files(old.places, files, disk, removed));
+  const auto key = old.places.configuration / "keys/key.pem";
+  const auto is_read = [&] {
+    std::ifstream in(key);
+    return std::string(std::istreambuf_iterator<char>(in), {}) == "new key";
+  };
+  EXPECT_TRUE(tests::as_service(0027, is_read));
+  EXPECT_FALSE(tests::as_user(tests::kMember, 0027, is_read));
+  EXPECT_EQ(old.states(), expected()) << "its mode stays";
+  ASSERT_EQ(::chown(key.c_str(), 0, tests::kService), 0);
+  ASSERT_TRUE(replace_files(old.places, files, disk, removed));
+  EXPECT_TRUE(tests::as_service(0027, is_read)) << "when its bytes are right already, too";
+  struct stat about {};
+  ASSERT_EQ(::stat((old.places.configuration / "rig.toml").c_str(), &about), 0);
+  EXPECT_EQ(about.st_uid, 0U) << "the group may read it";
+}
+
+TEST_F(Placement, ARunningDaemonIsNamedByItsUnit) {
+  const auto running = reserve(old.places.state);
+  ASSERT_TRUE(running);
+  for (const auto& [config, unit] : std::map<std::string, std::string>{
+           {"/etc/orbwatch/site.toml", "orbwatch"},
+           {"/etc/orbwatch/press/site.toml", "orbwatch@press"},
+           {"/etc/orbwatch/press/../lathe/site.toml", "orbwatch@lathe"},
+           {"/etc/orbwatch/press/other.toml", "orbwatch"}}) {
+    const auto excluded = exclude_daemon(config, old.places);
+    ASSERT_FALSE(excluded);
+    EXPECT_EQ(excluded.error().message, "orbwatchd runs; stop it first: systemctl stop " + unit);
+  }
 }
 
 TEST_F(Placement, LinksAreNotFollowed) {

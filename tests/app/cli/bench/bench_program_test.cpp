@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -58,6 +63,56 @@ TEST_F(BenchProgram, RunsTheConfigurationWithItsCamerasAndWithTestPatterns) {
     EXPECT_EQ(format.find("rgb 200x200 at 20"), 0U) << format;
     expect_documented(figures, bench({"--help"}).second);
   }
+}
+
+/// Files of a folder and its folders, with their sizes.
+std::map<std::string, std::uintmax_t> listing(const std::filesystem::path& folder) {
+  std::map<std::string, std::uintmax_t> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    files[entry.path().string()] = entry.is_regular_file() ? entry.file_size() : 0;
+  }
+  return files;
+}
+
+TEST_F(BenchProgram, LeavesTheRecordingsOfTheMachineAlone) {
+  const auto recordings = folder.path() / "recordings", snapshots = folder.path() / "snapshots";
+  std::filesystem::create_directory(recordings);
+  std::filesystem::create_directory(snapshots);
+  // Alone it exceeds the limit: a recording beside it may delete it.
+  const auto old = recordings / "log-20200101T000000Z.mcap";
+  std::ofstream(old) << "not finished";
+  std::filesystem::resize_file(old, std::uintmax_t{300} << 20);
+  const auto before = listing(recordings);
+  const std::string config =
+      write_config(small_machine() + "[recorder]\nfolder = \"recordings\"\nlimit_mib = 256\n" +
+                   "[snapshot]\nfolder = \"snapshots\"\n");
+  const std::string output = bench({"--config", config, "--seconds", "1", "--json"}).second;
+  ASSERT_TRUE(figures_in(output).is_object()) << output;
+  EXPECT_EQ(listing(recordings), before);
+  EXPECT_TRUE(listing(snapshots).empty());
+}
+
+/// Number of a run's temporary folders in a folder.
+std::size_t runs_in(const std::filesystem::path& folder) {
+  std::size_t runs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    runs += entry.path().filename().string().starts_with("orbwatch-bench-") ? 1 : 0;
+  }
+  return runs;
+}
+
+TEST_F(BenchProgram, RecordsOnTheDiskOfTheRecordings) {
+  const auto temporary = folder.path() / "tmp";
+  std::filesystem::create_directory(temporary);
+  const std::string config =
+      write_config(small_machine() + "[recorder]\nfolder = \"recordings\"\n");
+  Subprocess program({"/usr/bin/env", "TMPDIR=" + temporary.string(), ORBWATCH_PROGRAM, "bench",
+                      "--config", config, "--seconds", "1"},
+                     folder.path() / "said");
+  EXPECT_TRUE(eventually(program, [&] { return runs_in(folder.path()) == 1; })) << program.output();
+  EXPECT_EQ(runs_in(temporary), 0U);
+  program.wait();
+  EXPECT_EQ(runs_in(folder.path()), 0U);
 }
 
 TEST_F(BenchProgram, SaysWhatIsWrong) {

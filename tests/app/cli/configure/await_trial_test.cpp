@@ -12,6 +12,7 @@ namespace orbwatch::app::cli {
 namespace {
 
 using std::chrono::milliseconds;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr TrialPatience kLong{milliseconds(60'000), milliseconds(60'000)};
@@ -26,7 +27,7 @@ class AwaitTrial : public testing::Test {
 
   /// Returns the refusal; empty: the trial runs.
   std::string refusal(const TrialPatience& patience) const {
-    const auto awaited = await_trial(folder.path(), patience);
+    const auto awaited = await_trial(folder.path(), "orbwatch@press", patience);
     return awaited ? "" : awaited.error().message;
   }
 
@@ -60,7 +61,7 @@ TEST_F(AwaitTrial, SaysThatItEnded) {
 
 TEST_F(AwaitTrial, WithdrawsWhatNobodyTakes) {
   EXPECT_THAT(refusal({milliseconds(1), milliseconds(1)}),
-              HasSubstr("no orbwatchd has taken it up"));
+              AllOf(HasSubstr("no orbwatchd has taken it up"), HasSubstr("orbwatch@press")));
   EXPECT_FALSE(files::is_trial_requested(folder.path()));
 }
 

@@ -292,6 +292,10 @@ TEST_F(Checks, Ports) {
   port.error = EADDRINUSE;
   port.holder = "orbwatchd";
   expect(check_ports(facts), Level::Ok, "held by orbwatchd");
+  port.other_configuration = "/etc/orbwatch/site.toml";
+  expect(check_ports(facts), Level::Fault, "taken by the orbwatchd of /etc/orbwatch/site.toml",
+         "another port in [modbus]");
+  port.other_configuration.clear();
   port.holder = "mbserver";
   expect(check_ports(facts), Level::Fault, "taken by mbserver", "ss -ltnp");
   port.holder.clear();
@@ -366,6 +370,21 @@ TEST_F(Checks, Disk) {
   expect(check_disk(facts), Level::Fault, "read only", "remount,rw");
   folder = {"state", "/var/lib/orbwatch", {}, {}, false};
   expect(check_disk(facts), Level::Warning, "cannot be read", "df");
+}
+
+TEST_F(Checks, AFolderThatTheServiceCannotWrite) {
+  facts.folders = {{"recordings", "/mnt/ssd", 4000, 50, false, "", Access::Write, "orbwatch@two"}};
+  FolderFacts& folder = facts.folders.front();
+  expect(check_disk(facts), Level::Ok, "4000 MiB free");
+  folder.access = Access::ReadOnly;
+  expect(check_disk(facts), Level::Fault, "/mnt/ssd: read-only for the service orbwatch@two",
+         "sudo systemctl edit orbwatch@two with the lines [Service] and ReadWritePaths=-/mnt/ssd;");
+  folder.access = Access::Denied;
+  expect(check_disk(facts), Level::Fault, "/mnt/ssd: not writable for the service's user",
+         "sudo install -d -o orbwatch -g orbwatch /mnt/ssd");
+  folder.access = Access::ReadOnly;
+  folder.path = "/home/pi/recordings";
+  expect(check_disk(facts), Level::Fault, "read-only for", "another folder: ProtectHome=");
 }
 
 TEST_F(Checks, Watchdog) {

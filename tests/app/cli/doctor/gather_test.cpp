@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <limits>
 #include <random>
+#include <sstream>
 
 #include "app/cli/doctor/checks.h"
 #include "app/cli/doctor/doctor_text.h"
@@ -139,7 +140,7 @@ TEST_F(Gather, ConfigurationThatIsWrongOrMissing) {
   EXPECT_FALSE(none.configuration.exists);
   EXPECT_FALSE(none.site);
   const Facts folder = gather(sources, tree / "site");
-  EXPECT_THAT(folder.configuration.error, HasSubstr("is no file"));
+  EXPECT_THAT(folder.configuration.error, HasSubstr("is not a file"));
 }
 
 TEST_F(Gather, OfAWrongRigTheCamerasAreStillLookedFor) {
@@ -299,6 +300,20 @@ TEST_F(Gather, APortThatIsTakenAndByWhom) {
   EXPECT_EQ(facts.ports.front().error, EADDRINUSE);
   EXPECT_EQ(facts.ports.front().holder, "") << "not in this tree";
   EXPECT_TRUE(facts.ports.front().service_runs);
+  std::ostringstream row;
+  row << "0: 0100007F:" << std::hex << ntohs(address.sin_port) << " 0:0 0A 0:0 00:0 0 0 0 42 1\n";
+  tree.write("proc/net/tcp", row.str());
+  tree.link("proc/7/fd/5", "socket:[42]");
+  const auto port = [&](const std::string& arguments) {
+    tree.write("proc/7/cmdline", arguments);
+    return with_usb_camera(web).ports.at(0);
+  };
+  tree.link("same.toml", tree / "site/site.toml");
+  const std::string option("orbwatchd\0--config\0", 19);
+  EXPECT_EQ(port("orbwatchd").holder, "orbwatchd");
+  EXPECT_EQ(port("orbwatchd").other_configuration, "") << "its environment cannot be read";
+  EXPECT_EQ(port(option + (tree / "same.toml").string()).other_configuration, "");
+  EXPECT_EQ(port(option + "/etc/orbwatch/two.toml").other_configuration, "/etc/orbwatch/two.toml");
 }
 
 TEST_F(Gather, WhoListens) {
@@ -313,11 +328,37 @@ TEST_F(Gather, WhoListens) {
   tree.link("proc/8/fd/3", "socket:[41]");
   tree.link("proc/7/fd/5", "socket:[42]");
   tree.link("proc/9/fd/0", "socket:[43]");
-  EXPECT_EQ(listener_on(tree / "proc", 1502), "orbwatchd");
-  EXPECT_EQ(listener_on(tree / "proc", 8080), "web");
-  EXPECT_EQ(listener_on(tree / "proc", 502), "");
+  const auto service = listener_on(tree / "proc", 1502);
+  ASSERT_TRUE(service);
+  EXPECT_EQ(service->name, "orbwatchd");
+  EXPECT_EQ(service->process, tree / "proc/7");
+  EXPECT_EQ(listener_on(tree / "proc", 8080).value_or(Listener{}).name, "web");
+  EXPECT_FALSE(listener_on(tree / "proc", 502));
   tree.remove("proc/7/fd");
-  EXPECT_EQ(listener_on(tree / "proc", 1502), "") << "not this user's to see";
+  EXPECT_FALSE(listener_on(tree / "proc", 1502)) << "not this user's to see";
+}
+
+/// Text of procfs: each word ends with a NUL.
+std::string with_nuls(std::string words) {
+  std::ranges::replace(words, ' ', '\0');
+  return words + '\0';
+}
+
+TEST_F(Gather, ConfigurationOfAnOrbwatchd) {
+  const auto process = tree / "proc/7";
+  EXPECT_FALSE(configuration_of(process));
+  tree.write("proc/7/cmdline", with_nuls("/usr/sbin/orbwatchd"));
+  EXPECT_FALSE(configuration_of(process)) << "the environment cannot be read";
+  tree.write("proc/7/environ", with_nuls("LANG=C"));
+  EXPECT_EQ(configuration_of(process), "/etc/orbwatch/site.toml");
+  tree.write("proc/7/environ", with_nuls("LANG=C ORBWATCH_CONFIG=/etc/orbwatch/two/site.toml"));
+  EXPECT_EQ(configuration_of(process), "/etc/orbwatch/two/site.toml");
+  tree.write("proc/7/cmdline", with_nuls("orbwatchd --config=/a.toml"));
+  EXPECT_EQ(configuration_of(process), "/a.toml");
+  tree.write("proc/7/cmdline", with_nuls("orbwatchd --config b.toml"));
+  EXPECT_FALSE(configuration_of(process)) << "its working folder is unknown";
+  tree.link("proc/7/cwd", "/srv");
+  EXPECT_EQ(configuration_of(process), "/srv/b.toml");
 }
 
 TEST_F(Gather, ASerialLine) {
@@ -340,6 +381,33 @@ TEST_F(Gather, FoldersByTheNearestOneThatIsThere) {
 void write_program(MadeUpTree& tree, const std::string& name, const std::string& script) {
   tree.write(name, "#!/bin/sh\n" + script + "\n");
   ASSERT_EQ(::chmod((tree / name).c_str(), 0700), 0);
+}
+
+TEST_F(Gather, FoldersThatTheServiceCanWrite) {
+  write_program(
+      tree, "usr/bin/systemctl",
+      "cat <<END\nId=orbwatch@site.service\nEnvironment=ORBWATCH_CONFIG=/etc/site.toml\n\n"
+      "Id=orbwatch.service\nMainPID=7\nEnvironment=LANG=C ORBWATCH_CONFIG=" +
+          (tree / "site/site.toml").string() +
+          "\nProtectSystem=strict\nReadWritePaths=-/etc/orbwatch -/mnt/ssd\n"
+          "StateDirectory=state\nConfigurationDirectory=orbwatch\nEND");
+  Facts facts;
+  const auto access = [&] {
+    facts = with_usb_camera(
+        "[snapshot]\nfolder = \"/mnt/ssd/pictures\"\n[recorder]\nfolder = \"/mnt/disk/events\"\n");
+    std::vector<Access> found;
+    for (const FolderFacts& folder : facts.folders) found.push_back(folder.access);
+    return found;
+  };
+  EXPECT_THAT(access(), ElementsAre(Access::Unknown, Access::Unknown, Access::ReadOnly));
+  EXPECT_EQ(facts.folders.back().use, "recordings") << facts.configuration.error;
+  EXPECT_EQ(facts.folders.back().unit, "orbwatch");
+  tree.link("proc/7/root", "/");  // From here on this user may see the service's mounts.
+  EXPECT_THAT(access(), ElementsAre(Access::Write, Access::Write, Access::Write));
+  tree.write("proc/7/status", "Uid:\t4000000000\nGid:\t4000000000\nGroups:\t4000000001 \n");
+  tree.make_folder("mnt/disk/events");
+  std::filesystem::permissions(tree / "mnt/disk/events", std::filesystem::perms::all);
+  EXPECT_THAT(access(), ElementsAre(Access::Denied, Access::Denied, Access::Write));
 }
 
 TEST_F(Gather, WhatProgramsSay) {

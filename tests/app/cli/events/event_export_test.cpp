@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
@@ -12,6 +14,7 @@
 #include <thread>
 
 #include "app/ports/recorder/events/event_summary.h"
+#include "hal/mcap/file.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/daemon/replay/recorded_demo.h"
 #include "tests/support/reference_data.h"
@@ -191,6 +194,37 @@ TEST_F(EventExport, CtrlCLeavesNoFile) {
     return;
   }
   ADD_FAILURE() << "no export was interrupted";
+}
+
+TEST_F(EventExport, AnEventThatItsRecorderLeftUnfinishedIsDeletedButNotExported) {
+  const std::filesystem::path event = recording_.parent_path();
+  const std::filesystem::path unfinished = event.string() + ".unfinished";
+  std::filesystem::rename(event, unfinished);
+  std::filesystem::last_write_time(
+      unfinished / "event.mcap",
+      std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  const std::vector<std::string> deletion{"events", "rm", kEvent, "--folder", path("recordings")};
+  {
+    // A recorder locks its file.
+    const auto recorder =
+        hal::mcap::File::open(unfinished / "event.mcap", hal::mcap::File::Access::Change);
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    EXPECT_EQ(run(deletion), 1);
+    EXPECT_THAT(said, HasSubstr("is being recorded"));
+    EXPECT_EQ(export_to("states.csv"), 1);
+    EXPECT_THAT(said, HasSubstr("is being recorded; export it afterwards"));
+    ASSERT_EQ(run({"events", "list", "--folder", path("recordings")}), 0) << said;
+    EXPECT_THAT(said, HasSubstr("yes"));
+  }
+  ASSERT_EQ(run({"events", "list", "--folder", path("recordings")}), 0) << said;
+  EXPECT_THAT(said, testing::Not(HasSubstr("yes")));
+  EXPECT_EQ(export_to("states.csv"), 1);
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("is not complete, since its recorder ended early"),
+                                   HasSubstr("orbwatch events rm deletes it"),
+                                   testing::Not(HasSubstr("is being recorded"))));
+  EXPECT_FALSE(std::filesystem::exists(path("states.csv")));
+  EXPECT_EQ(run(deletion), 0) << said;
+  EXPECT_FALSE(std::filesystem::exists(unfinished));
 }
 
 TEST_F(EventExport, MistakesLeaveNoFile) {

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include "hal/thread/file_descriptor.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/daemon/replay/recorded_demo.h"
 
@@ -36,6 +44,10 @@ class Replay : public CommandLine {
     const std::size_t at = text.find(before);
     EXPECT_NE(at, std::string::npos);
     return write("other.toml", text.replace(at, before.size(), after));
+  }
+  static std::string text_in(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
   }
 
   static RecordedDemo* demo_;
@@ -88,6 +100,60 @@ TEST_F(Replay, PrintsTheMeasurements) {
     widths += line.find(",region,pool,hot_spot_width,") != std::string::npos ? 1 : 0;
   }
   EXPECT_EQ(widths, demo_->pictures());
+}
+
+TEST_F(Replay, AnErrorLeavesTheFilesThatAreThere) {
+  const std::string file = recording(), before = text_in(file);
+  expect_refused("replay",
+                 {"itself", {"DIR/event.mcap", "-o", "DIR/event.mcap"}, {"the recording itself"}});
+  EXPECT_TRUE(text_in(file) == before);
+  const std::string measured = write("measured.csv", "of before\n");
+  write("damaged.mcap", before.substr(0, 1000));
+  expect_refused("replay",
+                 {"damaged", {"DIR/damaged.mcap", "-o", "DIR/measured.csv"}, {"damaged.mcap"}});
+  demo_->write(path("log.mcap"), false);
+  expect_refused(
+      "replay",
+      {"log", {"DIR/log.mcap", "-o", "DIR/measured.csv"}, {"no frame set with pictures"}});
+  EXPECT_EQ(text_in(measured), "of before\n");
+  ASSERT_EQ(run({"replay", file, "-o", measured}), 0) << said;
+  EXPECT_THAT(text_in(measured), testing::StartsWith("utc_ns,"));
+}
+
+TEST_F(Replay, APipeReceivesTheCsv) {
+  const std::string fifo = path("fifo"), file = recording();
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  std::string piped;
+  std::thread reader([&] { piped = text_in(fifo); });
+  EXPECT_EQ(run({"replay", file, "-o", fifo}), 0) << said;
+  // Ends a reader that waits for a program that did not open the pipe.
+  static_cast<void>(hal::FileDescriptor(::open(fifo.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)));
+  reader.join();
+  ASSERT_EQ(run({"replay", file, "-o", path("measured.csv")}), 0) << said;
+  EXPECT_THAT(piped, testing::StartsWith("utc_ns,"));
+  EXPECT_TRUE(piped == text_in(path("measured.csv")));
+}
+
+TEST_F(Replay, ALinkStaysAndItsFileIsReplaced) {
+  const std::string measured = write("measured.csv", "of before\n"), linked = path("link.csv");
+  std::filesystem::create_symlink(measured, linked);
+  ASSERT_EQ(run({"replay", recording(), "-o", linked}), 0) << said;
+  EXPECT_TRUE(std::filesystem::is_symlink(linked));
+  EXPECT_THAT(text_in(measured), testing::StartsWith("utc_ns,"));
+}
+
+TEST_F(Replay, CtrlCLeavesNoPartOfAFile) {
+  const auto has_part = [this] {
+    return std::ranges::any_of(std::filesystem::directory_iterator(folder.path()),
+                               [](const auto& file) { return file.path().extension() == ".part"; });
+  };
+  Subprocess program({ORBWATCH_PROGRAM, "replay", recording(), "-o", path("measured.csv")},
+                     folder / "said");
+  while (program.runs() && !has_part()) std::this_thread::yield();
+  program.send(SIGINT);
+  const int code = program.wait();
+  EXPECT_EQ(std::filesystem::exists(path("measured.csv")), code == 0) << program.output();
+  EXPECT_FALSE(has_part());
 }
 
 TEST_F(Replay, NeedsPicturesAndTheConfigurationInTheFile) {

@@ -204,6 +204,11 @@ TEST_F(SupportFileTest, HasWhatHelps) {
   EXPECT_THAT(at(texts, "state/files.txt"), HasSubstr("users.json"));
 }
 
+TEST_F(SupportFileTest, HasTheJournalOfTheMachinesUnit) {
+  sources.config = "/etc/orbwatch/press/site.toml";
+  EXPECT_THAT(at(collect(), "journal/service.txt"), HasSubstr("--unit orbwatch@press "));
+}
+
 TEST_F(SupportFileTest, ListsWhatIsLeftOutAndWhy) {
   std::filesystem::remove(tree / "usr/bin/journalctl");
   std::filesystem::create_symlink("/etc/passwd", tree / "site/passwd.toml");

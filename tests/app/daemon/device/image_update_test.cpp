@@ -5,12 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/daemon/device/uploaded_file.h"
+#include "app/ports/recorder/recorder_settings.h"
 #include "tests/app/update/fake_rauc.h"
 #include "tests/app/update/image_root.h"
 #include "tests/support/comes_true.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::daemon::tests {
 namespace {
@@ -157,6 +161,40 @@ TEST_F(DeviceWithSlots, EndsDuringAnInstallation) {
 TEST_F(DeviceWithSlots, ReportsThatRaucIsMissing) {
   ::setenv("DBUS_SYSTEM_BUS_ADDRESS", "unix:path=/nowhere/bus", 1);
   EXPECT_THAT(refusal_of(kNewer), HasSubstr("no system bus"));
+}
+
+TEST(BackupUpload, KeepsTheReserveFree) {
+  constexpr std::uint64_t kLarge = std::uint64_t{1} << 60;
+  const orbwatch::tests::TemporaryFolder folder;
+  BackupUpload full(folder / "upload", kLarge);
+  EXPECT_EQ(full.add(0, "back"), 4U) << "a small one";
+  EXPECT_THAT(full.add(BackupUpload::kSmall, "up").error().message, HasSubstr("no room"));
+  BackupUpload empty(folder / "upload", 0);
+  EXPECT_THAT(empty.add(BackupUpload::kSmall, "up").error().message, HasSubstr("offset must be 4"))
+      << "there is room";
+  EXPECT_THAT(empty.add(BackupUpload::kMost, "up").error().message, HasSubstr("is larger than"));
+}
+
+TEST(BackupUpload, KeepsTheRecordersReserveIfThereIsARecorder) {
+  constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
+  RecorderSettings recorder;
+  recorder.reserve_mib = 5000;
+  EXPECT_EQ(backup_reserve(recorder), BackupUpload::kSmall);
+  recorder.folder = "recordings";
+  EXPECT_EQ(backup_reserve(recorder), 5000 * kMebibyte);
+}
+
+TEST(BackupUpload, IsRemovedAfterAPause) {
+  const orbwatch::tests::TemporaryFolder folder;
+  BackupUpload abandoned(folder / "abandoned", 0, std::chrono::milliseconds(1));
+  BackupUpload used(folder / "used", 0);
+  EXPECT_EQ(used.add(0, "back"), 4U);
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    EXPECT_EQ(abandoned.add(0, "back"), 4U);
+    EXPECT_TRUE(comes_true([&] { return !std::filesystem::exists(abandoned.file()); }));
+  }
+  EXPECT_THAT(abandoned.add(4, "up").error().message, HasSubstr("no upload has begun"));
+  EXPECT_EQ(used.add(4, "up"), 6U);
 }
 
 }  // namespace

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <memory>
+#include <utility>
+
 namespace orbwatch::app::daemon {
 namespace {
 
@@ -37,6 +41,24 @@ std::size_t requested_buffers(hal::TriggerMode mode) {
 TEST(OpenCamera, ATriggeredCameraHasBuffersForAFullQueue) {
   EXPECT_EQ(requested_buffers(hal::TriggerMode::Line), hal::kTriggeredBuffers);
   EXPECT_EQ(requested_buffers(hal::TriggerMode::Off), hal::kFreeRunningBuffers);
+}
+
+TEST(AddCameras, ATriggerWaitsForTheNextFrameOfASlowCamera) {
+  files::Resolved site;
+  files::CameraSettings& settings = site.site.cameras.emplace_back();
+  settings.trigger.mode = hal::TriggerMode::Line;
+  settings.trigger_source = kSoftwareSource;
+  OpenedCameras opened;
+  opened.cameras.push_back(std::make_unique<RequestedCamera>());
+  opened.formats.emplace_back().frame_rate = 0.25;
+  Lines lines({});
+  pipeline::PipelinePlan plan;
+  add_cameras(plan, std::move(opened), site, lines);
+  const hal::TimePoint edge = hal::Clock::now();
+  plan.triggers.at(0)->fire(edge);
+  EXPECT_TRUE(plan.triggers[0]->claim(edge + std::chrono::seconds(4)));
+  plan.triggers[0]->fire(edge);
+  EXPECT_FALSE(plan.triggers[0]->claim(edge + std::chrono::minutes(1)));
 }
 
 /// A thermal camera.
@@ -78,7 +100,7 @@ TEST(OpenCamera, TheScaleOfCountsIsTheStatedOneOrTheCameras) {
   const hal::CountScale linear{0.1, "IRFormat is TemperatureLinear100mK"};
   EXPECT_EQ(scale_of({.kelvin_per_count = 0.04}, {}), 0.04);
   EXPECT_EQ(scale_of({.kelvin_per_count = 0.1}, linear), 0.1);
-  EXPECT_EQ(scale_of({.says_scale = true}, linear), 0.1);
+  EXPECT_EQ(scale_of({.states_scale = true}, linear), 0.1);
   EXPECT_EQ(scale_of({}, linear), 0) << "percent of full scale, as long as the site says so";
 }
 
@@ -137,11 +159,11 @@ TEST(OpenCamera, AScaleThatContradictsTheCameraIsRefused) {
             "has kelvin_per_count 0.04, but says 0.1: IRFormat is TemperatureLinear100mK");
   for (const signals::RadiometrySettings& radiometry :
        {signals::RadiometrySettings{.kelvin_per_count = 0.04},
-        signals::RadiometrySettings{.says_scale = true}}) {
+        signals::RadiometrySettings{.states_scale = true}}) {
     EXPECT_THAT(refusal(radiometry, hal::CountScale{0, "IRFormat is Radiometric"}),
-                testing::HasSubstr("no temperatures: IRFormat is Radiometric; set it with"));
+                testing::HasSubstr("not temperatures: IRFormat is Radiometric; set it with"));
   }
-  EXPECT_THAT(refusal({.says_scale = true}, {}), testing::HasSubstr("state kelvin_per_count"));
+  EXPECT_THAT(refusal({.states_scale = true}, {}), testing::HasSubstr("state kelvin_per_count"));
   EXPECT_EQ(refusal({.kelvin_per_count = 0.1, .kelvin_offset = 5},
                     hal::CountScale{0.1, "IRFormat is TemperatureLinear100mK"}),
             "has kelvin_offset 5, but says counts that begin at 0 K: IRFormat is "

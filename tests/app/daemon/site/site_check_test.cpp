@@ -102,6 +102,88 @@ TEST(SiteCheck, FindsModbusAndThePageOnOnePort) {
   EXPECT_EQ(on(8080, 1502, "10.0.0.5", "10.1.0.5"), "none");
 }
 
+TEST(SiteCheck, FindsWhatDdsDoesNotStartWith) {
+  const auto with = [](bool enabled, const char* prefix, const char* profile) {
+    return refusal([=](files::Resolved& site) {
+      auto& dds = std::get<DdsSettings>(site.site.sinks);
+      dds.enabled = enabled;
+      dds.prefix = prefix;
+      dds.profile = profile;
+    });
+  };
+  EXPECT_EQ(with(true, "plant/cell_7", ""), "none");
+  for (const char* prefix : {"cell-7", "7a", "a//b", ""}) {
+    EXPECT_THAT(with(true, prefix, ""),
+                testing::AllOf(testing::HasSubstr("DDS: prefix \""),
+                               testing::HasSubstr("it must be letters, digits and '_'")));
+    EXPECT_EQ(with(false, prefix, ""), "none");
+  }
+  EXPECT_EQ(with(true, "orbwatch", "/nowhere/lan.xml"),
+            "DDS profile /nowhere/lan.xml: no such file");
+}
+
+TEST(SiteCheck, FindsAMachineWhoseInterfaceIsNotEnabled) {
+  const auto from = [](MachineSource source, bool enabled) {
+    return refusal([=](files::Resolved& site) {
+      site.site.machine.source = source;
+      std::get<ModbusSettings>(site.site.sinks).enabled = enabled;
+      std::get<DdsSettings>(site.site.sinks).enabled = enabled;
+      std::get<WebSettings>(site.site.sinks).enabled = enabled;
+    });
+  };
+  EXPECT_EQ(from(MachineSource::Modbus, false),
+            "machine.source is modbus, but [modbus] is not enabled; set enabled = true in "
+            "[modbus], or another source");
+  EXPECT_THAT(from(MachineSource::Dds, false), testing::HasSubstr("dds, but [dds] is not"));
+  EXPECT_THAT(from(MachineSource::Http, false), testing::HasSubstr("http, but [web] is not"));
+  for (const auto source : {MachineSource::Modbus, MachineSource::Dds, MachineSource::Http}) {
+    EXPECT_EQ(from(source, true), "none");
+  }
+  EXPECT_EQ(from(MachineSource::None, false), "none");
+  EXPECT_EQ(from(MachineSource::Simulation, false), "none");
+}
+
+TEST(SiteCheck, FindsACameraThatIsUsedTwice) {
+  const auto with = [](const files::BackEndSettings& colour,
+                       const files::BackEndSettings& thermal) {
+    return refusal([&](files::Resolved& site) {
+      site.site.cameras[0].back_end = colour;
+      site.site.cameras[kThermalCamera].back_end = thermal;
+    });
+  };
+  const auto video = [](const char* device) { return hal::V4l2Settings::at(device); };
+  EXPECT_EQ(with(video("/dev/video0"), video("/dev/video0")),
+            "cameras colour and thermal are both /dev/video0; give each one of its own");
+  EXPECT_EQ(with(video("/dev/video0"), video("/dev/video2")), "none");
+  EXPECT_THAT(with(hal::GenicamSettings::at("10.0.0.9"), hal::GenicamSettings::at("10.0.0.9")),
+              testing::HasSubstr("are both 10.0.0.9"));
+  EXPECT_EQ(with(hal::LibcameraSettings::at(""), hal::LibcameraSettings::at("")), "none");
+  EXPECT_EQ(with(hal::ReplaySettings::at("run.mcap"), hal::ReplaySettings::at("run.mcap")), "none");
+}
+
+TEST(SiteCheck, FindsALineThatIsUsedTwice) {
+  const auto with = [](LineKind kind, const hal::LineAddress& first,
+                       const hal::LineAddress& second) {
+    return refusal([&](files::Resolved& site) {
+      site.site.lines.resize(2);
+      site.site.lines[0].name = "start";
+      site.site.lines[1].name = "flash";
+      site.site.lines[1].use = LineUse::TriggerOut;
+      site.site.lines[0].wire.address = first;
+      site.site.lines[1].wire.address = second;
+      for (LineSettings& line : site.site.lines) line.back_end = kind;
+    });
+  };
+  const hal::LineAddress four{.chip = "pinctrl", .offset = 4}, five{.chip = "pinctrl", .offset = 5};
+  EXPECT_EQ(with(LineKind::Gpio, four, four),
+            "lines start and flash are both pinctrl line 4; give each one of its own");
+  EXPECT_EQ(with(LineKind::Gpio, {.name = "GPIO17"}, {.name = "GPIO17"}),
+            "lines start and flash are both GPIO17; give each one of its own");
+  EXPECT_EQ(with(LineKind::Gpio, four, five), "none");
+  EXPECT_EQ(with(LineKind::Gpio, four, {.name = "GPIO17"}), "none");
+  EXPECT_EQ(with(LineKind::Simulated, {.name = "WIRE"}, {.name = "WIRE"}), "none");
+}
+
 TEST(ListeningPorts, AreThoseOfAllEnabledInterfaces) {
   files::SinkSettings sinks;
   auto& web = std::get<WebSettings>(sinks);

@@ -55,9 +55,11 @@ class KilledWriter : public ConfigurationFile {
     return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now() - begin);
   }
   void kill_often(const std::function<bool()>& work, const std::function<void()>& judge) {
-    std::uniform_int_distribution<long> moment(0, 2 * time_of(work).count());
-    for (int n = tests::share_of(kKills); n > 0 && !HasFailure(); --n) {
-      kill_amid(work, microseconds(moment(random_)));
+    constexpr int kLoadLasts = 10;  // kills
+    long longest = 0;
+    for (int n = 0; n < tests::share_of(kKills) && !HasFailure(); ++n) {
+      if (n % kLoadLasts == 0) longest = 2 * time_of(work).count();
+      kill_amid(work, microseconds(std::uniform_int_distribution<long>(0, longest)(random_)));
       judge();
     }
   }

@@ -135,8 +135,9 @@ TEST_F(LastGood, NoFileOfAConfigurationIsAPipeAFolderOrTooLarge) {
     };
     fs::remove(file);
     ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
-    EXPECT_THAT(refusal(), HasSubstr(name + ": cannot be read: is a pipe or a device, no regular "
-                                            "file; it must be a TOML file"));
+    EXPECT_THAT(refusal(),
+                HasSubstr(name + ": cannot be read: is a pipe or a device, not a regular "
+                                 "file; it must be a TOML file"));
     fs::remove(file);
     fs::create_directory(file);
     EXPECT_THAT(refusal(), HasSubstr(name + ": cannot be read: Is a directory"));

@@ -147,14 +147,26 @@ TEST_F(TrialFile, IsNotWrittenOverAChangeThatSomebodyMadeMeanwhile) {
 }
 
 TEST_F(TrialFile, ThatCannotBeWrittenMayBeConfirmedAgain) {
-  const fs::path site = folder_ / "absent/site.toml";
+  const fs::path site = folder_ / "sites/site.toml";
+  std::ofstream(folder_ / "sites") << "in the way";
   ASSERT_TRUE(request_trial(folder_.path(), {site, {{site, "new"}}, 30}));
   ASSERT_TRUE(take_trial(folder_.path()));
-  EXPECT_THAT(confirm_trial(folder_.path()).error().message, HasSubstr("cannot be written"));
+  EXPECT_THAT(confirm_trial(folder_.path()).error().message, HasSubstr("cannot be made"));
   EXPECT_TRUE(confirmed_trial(folder_.path()).value());
-  fs::create_directory(folder_ / "absent");
+  fs::remove(folder_ / "sites");
   EXPECT_TRUE(confirm_trial(folder_.path()));
   EXPECT_TRUE(fs::exists(site));
+}
+
+TEST_F(TrialFile, MakesTheFoldersOfNewFilesLikeTheOneAbove) {
+  fs::permissions(folder_.path(), fs::perms(0775));
+  const fs::path site = folder_ / "site.toml", recipe = folder_ / "recipes/new/one.toml";
+  ASSERT_TRUE(request_trial(folder_.path(), {site, {{site, "new"}, {recipe, "one"}}, 30}));
+  ASSERT_TRUE(take_trial(folder_.path()));
+  const auto written = confirm_trial(folder_.path());
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_TRUE(fs::exists(recipe));
+  EXPECT_EQ(fs::status(recipe.parent_path()).permissions(), fs::perms(0775));
 }
 
 TEST_F(TrialFile, ThatIsNoUtf8IsRefused) {

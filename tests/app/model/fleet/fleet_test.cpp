@@ -21,11 +21,13 @@ ApplianceNotice named(const std::string& name) {
 
 class FleetTest : public testing::Test {
  protected:
-  void hear(const std::string& id, const std::string& name) { fleet.hear(id, named(name), now); }
+  void receive(const std::string& id, const std::string& name) {
+    fleet.receive(id, named(name), now);
+  }
   /// Receives a notice of each once a second.
   void hear_for(seconds duration, const std::vector<std::pair<std::string, std::string>>& ones) {
     for (auto n = seconds(0); n < duration; ++n) {
-      for (const auto& [id, name] : ones) hear(id, name);
+      for (const auto& [id, name] : ones) receive(id, name);
       now += seconds(1);
     }
   }
@@ -44,34 +46,34 @@ class FleetTest : public testing::Test {
 };
 
 TEST_F(FleetTest, IsInOrderOfNamesWhoeverIsHeardFirst) {
-  hear("1", "b");
-  hear("2", "a");
+  receive("1", "b");
+  receive("2", "a");
   EXPECT_EQ(listed(), (Ids{"2", "1"}));
-  fleet.call_self("1");
+  fleet.set_own_id("1");
   const auto entries = fleet.list(now);
   EXPECT_FALSE(entries[0].is_self);
   EXPECT_TRUE(entries[1].is_self);
 }
 
 TEST_F(FleetTest, HasTheNewestNotice) {
-  hear("1", "a");
+  receive("1", "a");
   ApplianceNotice notice = named("a");
   notice.alarms = 2;
-  fleet.hear("1", notice, now += seconds(1));
+  fleet.receive("1", notice, now += seconds(1));
   ASSERT_EQ(fleet.list(now).size(), 1U);
   EXPECT_EQ(fleet.list(now)[0].notice.alarms, 2U);
   EXPECT_EQ(fleet.list(now)[0].newest, now);
 }
 
 TEST_F(FleetTest, MarksWhoIsSilentAndNoticesThatItIsBack) {
-  hear("1", "a");
+  receive("1", "a");
   now += Fleet::kSilence;
   EXPECT_EQ(listed(), Ids{"1"});
   now += milliseconds(1);
   EXPECT_EQ(listed(), Ids{"(1)"});
   now += std::chrono::hours(24);
   EXPECT_EQ(listed(), Ids{"(1)"}) << "it stays";
-  hear("1", "a");
+  receive("1", "a");
   EXPECT_EQ(listed(), Ids{"1"});
 }
 
@@ -102,22 +104,24 @@ TEST_F(FleetTest, OneThatCameTakesThePlaceOfOneOnly) {
 }
 
 TEST_F(FleetTest, ForgetsThoseThatAreGone) {
-  hear("1", "a");
+  receive("1", "a");
   now += seconds(10);
-  hear("2", "b");
+  receive("2", "b");
   EXPECT_EQ(fleet.forget_gone(now), 1U);
   EXPECT_EQ(listed(), Ids{"2"});
   EXPECT_EQ(fleet.forget_gone(now), 0U);
 }
 
 TEST_F(FleetTest, IsBoundedAndWhoIsGoneLongestMakesRoom) {
-  for (std::size_t n = 0; n < Fleet::kMost; ++n) hear(std::to_string(n), "a" + std::to_string(n));
-  hear("late", "late");
+  for (std::size_t n = 0; n < Fleet::kMost; ++n)
+    receive(std::to_string(n), "a" + std::to_string(n));
+  receive("late", "late");
   EXPECT_EQ(listed().size(), Fleet::kMost);
   EXPECT_EQ(fleet.counts().turned_away, 1U);
   now += seconds(10);
-  for (std::size_t n = 2; n < Fleet::kMost; ++n) hear(std::to_string(n), "a" + std::to_string(n));
-  hear("late", "late");
+  for (std::size_t n = 2; n < Fleet::kMost; ++n)
+    receive(std::to_string(n), "a" + std::to_string(n));
+  receive("late", "late");
   const Ids ids = listed();
   EXPECT_EQ(ids.size(), Fleet::kMost);
   EXPECT_EQ(std::ranges::count(ids, "late"), 1);
@@ -129,7 +133,7 @@ TEST_F(FleetTest, KeepsTheNewestPictureOfThoseThatItKnows) {
   EXPECT_EQ(fleet.picture("1"), nullptr);
   fleet.show("1", "stranger");
   EXPECT_EQ(fleet.counts().refused, 1U);
-  hear("1", "a");
+  receive("1", "a");
   EXPECT_EQ(fleet.picture("1"), nullptr);
   EXPECT_EQ(fleet.list(now)[0].pictures, 0U);
   fleet.show("1", "first");
@@ -142,10 +146,10 @@ TEST_F(FleetTest, KeepsTheNewestPictureOfThoseThatItKnows) {
 }
 
 TEST_F(FleetTest, WantsPicturesForAWhileAfterSomebodyLooked) {
-  EXPECT_FALSE(fleet.is_looked_at(now));
-  fleet.look(now);
-  EXPECT_TRUE(fleet.is_looked_at(now + seconds(2)));
-  EXPECT_FALSE(fleet.is_looked_at(now + seconds(60)));
+  EXPECT_FALSE(fleet.has_viewers(now));
+  fleet.note_viewer(now);
+  EXPECT_TRUE(fleet.has_viewers(now + seconds(2)));
+  EXPECT_FALSE(fleet.has_viewers(now + seconds(60)));
 }
 
 }  // namespace

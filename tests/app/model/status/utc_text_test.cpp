@@ -35,5 +35,25 @@ TEST(UtcText, OfAnotherFormIsNotParsed) {
   }
 }
 
+TEST(UtcText, OfNamesSortsAsMomentsDo) {
+  const auto text_at = [](std::int64_t ms) {
+    return compact_utc_text(system_clock::time_point(std::chrono::milliseconds(ms)));
+  };
+  EXPECT_FALSE(text_at(0));
+  EXPECT_EQ(text_at(1'795'857'720'125), "20261128T092200.125Z");
+  std::string before;
+  for (const std::int64_t ms : {1LL, 999LL, 1000LL, 951'782'399'999LL, 1'795'857'720'125LL}) {
+    const std::string text = text_at(ms).value_or("");
+    EXPECT_EQ(text.size(), kCompactUtcLength);
+    EXPECT_TRUE(is_compact_utc_text(text)) << text;
+    EXPECT_LT(before, text);
+    before = text;
+  }
+  for (const char* text : {"", "20261128T092200.125", "20261128t092200.125Z",
+                           "20261128T092200.125Z-", "2026x128T092200.125Z"}) {
+    EXPECT_FALSE(is_compact_utc_text(text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::app::tests

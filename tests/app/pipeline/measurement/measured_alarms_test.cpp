@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <memory>
 #include <vector>
 
 #include "tests/app/pipeline/measurement/measurement_bench.h"
@@ -95,6 +96,27 @@ TEST_F(MeasuredAlarms, WhatStoodInARecipeThatIsLeftIsSuppressed) {
   ASSERT_EQ(notices.size(), 5U);
   EXPECT_EQ(notices[4].event.kind, AlarmEventKind::Raised) << "starts from normal";
   EXPECT_EQ(notices[4].recipe, 1);
+}
+
+TEST_F(MeasuredAlarms, AlarmsContinueWhenTheirRecipeIsExchanged) {
+  RecipePlan watched = plan(1);
+  watched.alarms = {hotter_than(celsius(1) - 10)};
+  watched.alarms[0].latching = true;
+  measure_by({watched});
+  constexpr std::uint16_t kCold = 31000;
+  expose();
+  const AlarmStatus before = expose({}, Clock::now(), kCold).alarms[0];
+  ASSERT_EQ(before.alarm.state, signals::AlarmState::LatchedUnacknowledged);
+  std::vector<std::unique_ptr<CompiledRecipe>> recipes;
+  recipes.push_back(compiled(watched));
+  measurement->exchange(recipes);
+  for (const AlarmStatus& after : {idle().alarms[0], expose({}, Clock::now(), kCold).alarms[0]}) {
+    EXPECT_EQ(after.alarm, before.alarm);
+    EXPECT_EQ(after.since, before.since);
+  }
+  EXPECT_EQ(notices.size(), 2U) << "raised, and its cause cleared";
+  ASSERT_EQ(measurement->acknowledge_alarm(1), CommandResult::Done);
+  EXPECT_EQ(idle().alarms[0].alarm.state, signals::AlarmState::Normal);
 }
 
 TEST_F(MeasuredAlarms, ALostCameraRaisesTheLossOfADetectedProcess) {

@@ -62,6 +62,7 @@ class MeasurementTest : public testing::Test {
     for (RecipePlan& plan : plans) recipes.push_back(compiled(std::move(plan)));
     measurement.emplace(std::move(recipes), inputs, std::move(apply));
     buffers.emplace(ViewBuffers::Views(), measurement->planned_views(), KeptViews{});
+    measurement->start();
   }
   void measure_by_two() { measure_by({plan(1), plan(2)}); }
 

@@ -92,6 +92,7 @@ RecipeSwitch::Selection settled(RecipeSwitch& recipes) {
 TEST(RecipeSwitch, BeginsWithTheFirstRecipeAndSetsNothing) {
   HandCameras cameras;
   RecipeSwitch recipes(2, cameras.apply());
+  recipes.start();
   const RecipeSwitch::Selection first{2, TimePoint::min(), 0};
   EXPECT_EQ(recipes.selection_at(Clock::now()), first);
   EXPECT_EQ(recipes.selection_at(TimePoint{}), first) << "whenever it was exposed";
@@ -100,9 +101,23 @@ TEST(RecipeSwitch, BeginsWithTheFirstRecipeAndSetsNothing) {
   EXPECT_TRUE(cameras.log().empty());
 }
 
+TEST(RecipeSwitch, ARequestBeforeTheStartSetsTheCamerasAfterIt) {
+  HandCameras cameras;
+  RecipeSwitch recipes(0, cameras.apply());
+  recipes.request(1);
+  recipes.request(2);
+  EXPECT_EQ(recipe_of(recipes), std::nullopt) << "nothing is measured meanwhile";
+  EXPECT_TRUE(cameras.log().empty());
+  recipes.start();
+  cameras.accept();
+  EXPECT_EQ(settled(recipes).recipe, 2U);
+  EXPECT_EQ(cameras.log(), (std::vector<std::size_t>{2}));
+}
+
 TEST(RecipeSwitch, FramesBelongToTheNewRecipeOnceCamerasWereSet) {
   HandCameras cameras;
   RecipeSwitch recipes(0, cameras.apply());
+  recipes.start();
   const TimePoint before = Clock::now();
   recipes.request(1);
   const TimePoint requested = Clock::now();
@@ -127,6 +142,7 @@ TEST(RecipeSwitch, FramesBelongToTheNewRecipeOnceCamerasWereSet) {
 TEST(RecipeSwitch, RefusedSettingsGoBackAndThatIsSaid) {
   HandCameras cameras;
   RecipeSwitch recipes(0, cameras.apply());
+  recipes.start();
   recipes.request(1);
   cameras.accept();
   ASSERT_EQ(settled(recipes).recipe, 1U);
@@ -151,6 +167,7 @@ TEST(RecipeSwitch, RefusedSettingsGoBackAndThatIsSaid) {
 TEST(RecipeSwitch, GoesOnWithTheRecipeBeforeWhenTheWayBackIsRefusedToo) {
   HandCameras cameras;
   RecipeSwitch recipes(0, cameras.apply());
+  recipes.start();
   recipes.request(1);
   cameras.refuse();
   cameras.refuse();
@@ -164,6 +181,7 @@ TEST(RecipeSwitch, GoesOnWithTheRecipeBeforeWhenTheWayBackIsRefusedToo) {
 TEST(RecipeSwitch, TheNewestRequestWins) {
   HandCameras cameras;
   RecipeSwitch recipes(0, cameras.apply());
+  recipes.start();
   recipes.request(1);
   cameras.wait_for_request();
   recipes.request(2);
@@ -182,6 +200,7 @@ TEST(RecipeSwitch, TheNewestRequestWins) {
 TEST(RecipeSwitch, ARefusalThatANewerRequestOvertookIsNotReported) {
   HandCameras cameras;
   RecipeSwitch recipes(0, cameras.apply());
+  recipes.start();
   recipes.request(1);
   cameras.wait_for_request();
   recipes.request(2);
@@ -198,6 +217,7 @@ TEST(RecipeSwitch, ARefusalThatANewerRequestOvertookIsNotReported) {
 
 TEST(RecipeSwitch, NothingExposedAfterARequestBelongsToARecipeBeforeIt) {
   RecipeSwitch recipes(0, [](std::size_t) { return Result<>(); });
+  recipes.start();
   std::mt19937 random(1);
   for (std::size_t n = 1; n <= 500; ++n) {
     recipes.request(n);
@@ -221,6 +241,7 @@ TEST(RecipeSwitch, StopsAfterTheSettingsUnderWay) {
       ++ended;
       return {};
     });
+    recipes.start();
     for (std::size_t n = 0; n < round; ++n) recipes.request(n);
     recipes.stop();
     EXPECT_EQ(begun, ended);
@@ -234,6 +255,7 @@ TEST(RecipeSwitch, StopsAfterTheSettingsUnderWay) {
 
 TEST(RecipeSwitch, WithoutCamerasToSetARecipeCountsFromItsRequestOn) {
   RecipeSwitch recipes(0, nullptr);
+  recipes.start();
   const TimePoint before = Clock::now();
   recipes.request(1);
   const TimePoint after = Clock::now();
@@ -300,6 +322,7 @@ TEST_P(RandomOrders, EveryFrameBelongsToWhatCamerasWereSetToThen) {
     settings.push_back({recipe, done, begin, Clock::now()});
     return done ? Result<>() : fail("refused");
   });
+  recipes.start();
   std::vector<Request> requests;
   std::vector<Returned> returned;
   {

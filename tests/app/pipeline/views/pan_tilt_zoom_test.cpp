@@ -95,7 +95,7 @@ TEST_F(PanTiltZoomTest, LeavesWhatNobodyPointed) {
 }
 
 TEST_F(PanTiltZoomTest, RefusesWithAReason) {
-  EXPECT_EQ(refusal(2, kHome), "view 2: is none that can be pointed; there are 2, from 0");
+  EXPECT_EQ(refusal(2, kHome), "view 2: cannot be pointed; there are 2, from 0");
   EXPECT_EQ(refusal(kLeft, {{}, 180, {}}),
             "view left: the view's h_fov is 180.000000 degrees; it must be above 0 "
             "and below 180");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/backup/events/restored_events.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 
 #include "app/cli/archive/compression.h"
 #include "app/cli/archive/tar.h"
+#include "hal/thread/file_descriptor.h"
 #include "tests/app/cli/backup/events/recorded_events.h"
 #include "tests/support/service_user.h"
 
@@ -159,6 +162,27 @@ TEST_F(RestoredEvents, BelongToTheOwnerOfTheRecordingsAndAreWrittenWithItsRights
   ASSERT_FALSE(led);
   EXPECT_THAT(led.error().message, HasSubstr("Permission denied"));
   EXPECT_TRUE(fs::is_empty(folder / "of-root"));
+}
+
+TEST_F(RestoredEvents, OfASecondRestoreWaitForTheFirst) {
+  const auto events = manifest_events(kept());
+  const auto placed = [&] {
+    FrameReader frames = frames_of(frame());
+    EXPECT_TRUE(frames.next().value_or(false));
+    DiskChanges disk;
+    const auto done = place_events(frames, events, {folder / "new", 0}, disk);
+    return done ? "" : done.error().message;
+  };
+  fs::create_directories(folder / "new/events");
+  {
+    const hal::FileDescriptor first(
+        ::open((folder / "new/events").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    ASSERT_EQ(::flock(first.get(), LOCK_EX), 0);
+    EXPECT_THAT(placed(), HasSubstr("another restore adds events; repeat this one afterwards"));
+    EXPECT_THAT(restored(), ElementsAre());
+  }
+  EXPECT_EQ(placed(), "");
+  EXPECT_THAT(restored(), ElementsAre(kFirst, kSecond));
 }
 
 TEST_F(RestoredEvents, MayHaveMissingFoldersAboveThem) {
