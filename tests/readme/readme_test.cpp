@@ -86,6 +86,11 @@ constexpr std::array kNotRun{
            "/etc/systemd/journald.conf.d/orbwatch.conf",
            "the journal of this computer"},
     NotRun{"sudo systemctl restart systemd-journald", "as the one before"},
+    NotRun{"sudo install -d -g orbwatch -m 2775 /etc/orbwatch/NAME /etc/orbwatch/NAME/recipes",
+           "the configuration of this computer"},
+    NotRun{"sudo install -d -o orbwatch -g orbwatch /mnt/ssd/recordings", "another disk"},
+    NotRun{"sudo systemctl edit orbwatch", "an editor"},
+    NotRun{"sudo systemctl restart orbwatch", "the service of this computer"},
     NotRun{"sudo systemctl stop orbwatch", "the service of this computer"},
     NotRun{"sudo systemctl start orbwatch", "the service of this computer"},
 };
