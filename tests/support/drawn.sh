@@ -30,6 +30,13 @@ draws() {
   ((16#${hash:0:4} % 4 == 0))
 }
 
+# drawn_of NAME...: prints one of the names, which HEAD's hash draws.
+drawn_of() {
+  local names=("$@") hash
+  hash=$(git rev-parse HEAD)
+  echo "${names[16#${hash:0:4} % $#]}"
+}
+
 # by_turns: names in an order that HEAD's hash draws.
 by_turns() {
   local name head

@@ -22,24 +22,29 @@ compile() {
   tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
 }
 
-# The sanitizers' preset of this commit, drawn by HEAD's hash.
-drawn_preset() {
-  local presets=(asan-ubsan tsan) hash
-  hash=$(git rev-parse HEAD)
-  echo "${presets[16#${hash:0:4} % 2]}"
+# An object takes a sanitizer this many times as long as the release build, including its part of the tests.
+sanitizer_factor=3
+
+# pace: prints the mean seconds that one core compiled an object of the release build.
+pace() {
+  awk -F'\t' '$4 ~ /\.o$/ {took[$4] = $2 - $1}
+    END {for (name in took) {sum += took[name]; ++count}; if (count) print sum / count / 1000}' build/release/.ninja_log
 }
 
-# Most objects that CI compiles for a sanitizer; all are about twice as many (tests/REPORT.md has their cost).
-most_objects=90
+# objects_within SECONDS: prints the number of objects that a sanitizer compiles and runs in this time.
+objects_within() {
+  awk -v within="$1" -v cores="$(nproc)" -v pace="$(pace)" -v factor="$sanitizer_factor" \
+    'BEGIN {if (pace <= 0) exit 1; fit = int(within * cores / (factor * pace)); print (fit > 0 ? fit : 0)}'
+}
 
 # objects_of FOLDER NAME...: prints the number of objects that the programs consist of.
 objects_of() { ninja -C "$1" -t commands "${@:2}" | grep -c -- ' -c '; }
 
-# affordable FOLDER: of names in order of their importance, those that together stay within most_objects.
+# affordable FOLDER MOST: of names in order of their importance, those that together have at most MOST objects.
 affordable() {
   local name taken=()
   while read -r name; do
-    (($(objects_of "$1" "${taken[@]}" "$name") <= most_objects)) || continue
+    (($(objects_of "$1" "${taken[@]}" "$name") <= $2)) || continue
     taken+=("$name")
     echo "$name"
   done
@@ -48,15 +53,14 @@ affordable() {
 # choose_programs PRESET: writes the test programs and fuzz targets of a configured preset that are to run, and
 # the others, to files `due` and `not_due` in its folder.
 choose_programs() {
-  local folder=build/$1 fate
+  local folder=build/$1 fate most
   tests/support/due_programs.py "$folder" "${ORBWATCH_SINCE:-$(last_whole sanitizers)}" >"$folder/programs" ||
     return
   if ((whole)); then
     sed 's/.* //' "$folder/programs"
-  elif [[ -n ${ORBWATCH_SINCE:-} ]]; then
-    sed -nE 's/^(own|due) //p' "$folder/programs"
-  elif [[ $1 == "$(drawn_preset)" ]]; then
-    for fate in own due same; do sed -n "s/^$fate //p" "$folder/programs" | by_turns; done | affordable "$folder"
+  else
+    most=$(objects_within "$within") || { echo "no release build, whose pace is needed" >&2; return 1; }
+    for fate in own due same; do sed -n "s/^$fate //p" "$folder/programs" | by_turns; done | affordable "$folder" "$most"
   fi >"$folder/due"
   sed 's/.* //' "$folder/programs" | { grep -vxFf "$folder/due" || true; } >"$folder/not_due"
 }
