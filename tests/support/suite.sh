@@ -23,7 +23,7 @@ compile() {
 }
 
 # An object takes a sanitizer this many times as long as the release build, including its part of the tests.
-sanitizer_factor=3
+sanitizer_factor=2
 
 # pace: prints the mean seconds that one core compiled an object of the release build.
 pace() {

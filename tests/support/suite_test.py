@@ -15,7 +15,7 @@ for name; do for n in $(seq "${name##*_}"); do echo "c++ -c $name"; done; done
 """
 CORES = 2
 MOST_OBJECTS = 90
-SANITIZER_FACTOR = 3  # as in suite.sh
+SANITIZER_FACTOR = 2  # as in suite.sh
 
 
 def executable(path, text):
