@@ -17,8 +17,8 @@ struct Rule {
 
 /// A port sees the model and its own folder, never another port.
 inline std::vector<std::string> port(const std::string& folder) {
-  return {"proc",         "hal",       "app/model",        "app/log.h", "app/recent_log.h",
-          "app/pictures", "app/state", "app/certificates", folder};
+  return {"proc",         "hal",       "app/model",        "app/log.h",  "app/recent_log.h",
+          "app/pictures", "app/state", "app/certificates", "app/digest", folder};
 }
 
 /// The most specific rule counts. The standard library and the C library are allowed everywhere.
@@ -113,6 +113,7 @@ inline const std::vector<Rule> kRules{
      {"microhttpd.h", "nlohmann/", "tl/expected"}},
     {"app/ports/web/status", port("app/ports/web"), {"nlohmann/", "prometheus/", "tl/expected"}},
     {"app/certificates", {"proc/image", "hal", "app/certificates"}, {"openssl/", "tl/expected"}},
+    {"app/digest", {"proc/image", "app/digest"}, {"sodium.h", "tl/expected"}},
     {"app/pictures",
      {"proc", "hal", "app/pictures"},
      {"opencv2/", "png.h", "turbojpeg", "tl/expected"}},

@@ -15,6 +15,7 @@
 #include "app/cli/archive/tar.h"
 #include "app/cli/backup/sealing.h"
 #include "app/cli/backup/site_places.h"
+#include "app/digest/sha256.h"
 #include "hal/regular_file.h"
 #include "hal/thread/file_descriptor.h"
 

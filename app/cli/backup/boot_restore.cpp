@@ -16,8 +16,8 @@
 #include "app/cli/backup/placement.h"
 #include "app/cli/backup/restoration.h"
 #include "app/cli/backup/restore_report.h"
-#include "app/cli/backup/sealing.h"
 #include "app/cli/backup/service_stop.h"
+#include "app/digest/sha256.h"
 #include "app/state/state_folder.h"
 #include "hal/regular_file.h"
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <optional>
 
 namespace orbwatch::app::cli::backup {
@@ -88,37 +87,6 @@ Result<std::string> unseal(std::string_view sealed, std::string_view passphrase,
   ::sodium_memzero(&state, sizeof state);
   if (is_right) return bytes;
   return fail("the passphrase is wrong, or the file was changed");
-}
-
-namespace {
-
-std::string digits_of(const std::array<unsigned char, crypto_hash_sha256_BYTES>& hash) {
-  std::string text(2 * hash.size() + 1, '\0');
-  ::sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
-  text.pop_back();
-  return text;
-}
-
-}  // namespace
-
-std::string sha256(std::string_view bytes) {
-  std::array<unsigned char, crypto_hash_sha256_BYTES> hash{};
-  ::crypto_hash_sha256(hash.data(), bytes_of(bytes), bytes.size());
-  return digits_of(hash);
-}
-
-Result<std::string> sha256_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string part(std::size_t{1} << 16, '\0');
-  crypto_hash_sha256_state state;
-  ::crypto_hash_sha256_init(&state);
-  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
-    ::crypto_hash_sha256_update(&state, bytes_of(part), static_cast<std::size_t>(in.gcount()));
-  }
-  if (!in.eof()) return fail(file.string() + ": cannot be read");
-  std::array<unsigned char, crypto_hash_sha256_BYTES> hash{};
-  ::crypto_hash_sha256_final(&state, hash.data());
-  return digits_of(hash);
 }
 
 }  // namespace orbwatch::app::cli::backup

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -19,10 +18,5 @@ Result<std::string> seal(std::string_view bytes, std::string_view passphrase,
 /// The bytes. Errors: another passphrase or context, changed bytes; out of memory.
 Result<std::string> unseal(std::string_view sealed, std::string_view passphrase,
                            std::string_view context);
-
-/// SHA-256 in hexadecimal digits.
-std::string sha256(std::string_view bytes);
-/// The same of a file. Error: it cannot be read.
-Result<std::string> sha256_of(const std::filesystem::path& file);
 
 }  // namespace orbwatch::app::cli::backup

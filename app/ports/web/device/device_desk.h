@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
+#include "app/digest/sha256.h"
 #include "app/model/configuration/configuration_files.h"
 #include "app/model/configuration/device_files.h"
 #include "app/model/configuration/device_update.h"
-#include "app/ports/web/access/sha256.h"
 #include "app/ports/web/api/changes.h"
 #include "app/ports/web/api/record.h"
 #include "app/ports/web/api/route.h"

@@ -6,7 +6,7 @@
 #include "app/cli/archive/compression.h"
 #include "app/cli/archive/tar.h"
 #include "app/cli/backup/placement.h"
-#include "app/cli/backup/sealing.h"
+#include "app/digest/sha256.h"
 #include "tests/app/cli/backup/site.h"
 
 namespace orbwatch::app::cli::backup {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ports/web/access/sha256.h"
+#include "app/digest/sha256.h"
 
 #include <sodium.h>
 
 #include <array>
+#include <fstream>
 
-namespace orbwatch::app::web {
+namespace orbwatch::app {
 
 struct Sha256::State {
   crypto_hash_sha256_state hash;
@@ -31,4 +32,21 @@ std::string Sha256::digits() const {
   return text;
 }
 
-}  // namespace orbwatch::app::web
+std::string sha256(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes);
+  return hash.digits();
+}
+
+Result<std::string> sha256_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string part(std::size_t{1} << 16, '\0');
+  Sha256 hash;
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
+    hash.add(std::string_view(part).substr(0, static_cast<std::size_t>(in.gcount())));
+  }
+  if (!in.eof()) return fail(file.string() + ": cannot be read");
+  return hash.digits();
+}
+
+}  // namespace orbwatch::app
