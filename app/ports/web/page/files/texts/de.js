@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Texts of the page in German: members and arguments are those of en.js.
 import { device } from "./de_device.js";
+import { recordings } from "./de_recordings.js";
 export { words } from "./de_words.js";
 
 const fixed = (value, decimals) => value.toFixed(decimals).replace(".", ",");
@@ -324,91 +325,7 @@ export const texts = {
     pitch: "Nickwinkel, °",
     h_fov: "Breite, °",
   },
-  recordings: {
-    kinds: { alarm: "Alarm", command: "Auf Befehl", laser_on: "Der Laser ging an", layer: "Die Lage wechselte",
-      line: "Eine digitale Leitung" },
-    raised: (region, signal, level, amount) => [`${region}: ${signal}`, level, amount].filter(Boolean).join(", "),
-    lineActive: (name) => `Leitung ${name} wurde aktiv`,
-    record: "Aufzeichnen, was jetzt geschieht",
-    all: "alle",
-    filters: { kind: "Ursache", part: "Teil enthält", layer: "Lage", since: (zone) => `Seit (${zone})`,
-      until: (zone) => `Bis (${zone})` },
-    more: "Mehr zeigen",
-    narrow: (most) => `Die neuesten ${most} sind gezeigt. Ältere zeigt eine engere Suche.`,
-    missing: (key) => `Es werden keine Ereignisse aufgezeichnet: setzen Sie ${key} in der Konfigurationsdatei.`,
-    count: (shown, all) => (shown === all ? `${all} ${all === 1 ? "Ereignis" : "Ereignisse"}`
-      : `${shown} von ${all} Ereignissen`),
-    machine: (part, layer) => [part ? `Teil ${part}` : "", layer === null ? "" : `Lage ${layer}`]
-      .filter(Boolean).join(", "),
-    about: (pictures, mebibytes) => `${pictures} ${pictures === 1 ? "Bild" : "Bilder"}, ` +
-      `${mebibytes} MiB`,
-    picture: (cause) => `Bild des Auslösers: ${cause}`,
-    unfinished: "Es wird gerade aufgezeichnet.",
-    interrupted: "Es wurde unterbrochen.",
-    noBeginning: "Bilder vor dem Auslöser fehlen.",
-    lost: (count) => `${count} Bilder fanden keinen Platz.`,
-    pin: "Behalten",
-    unpin: "Nicht mehr behalten",
-    look: "Ansehen",
-    close: "Schließen",
-    before: "Eins davor",
-    after: "Eins danach",
-    place: "Bild des Ereignisses",
-    noPicture: "Das Bild konnte nicht geladen werden.",
-    moment: (number, all, time, seconds) => `${number} von ${all}, ${time}, ${seconds} s vom Auslöser`,
-    offset: (seconds) => `${seconds} s vom Auslöser`,
-    trigger: "Auslöser",
-    chart: (name, low, high) => `${name} während des Ereignisses: ${low} bis ${high}`,
-    chartEmpty: (name) => `${name}: während des Ereignisses nicht gemessen`,
-    noRegions: (why) => `Seine Bereiche lassen sich nicht zeigen: ${why}`,
-    exports: {
-      title: "Exportieren",
-      format: "Datei",
-      formats: { mcap: "Aufzeichnung (MCAP)", csv: "Tabelle der Werte (CSV)", tif: "Bilder (TIFF)", avi: "Video (AVI)",
-        zip: "Alles zusammen (ZIP)" },
-      draws: "Werte einzeichnen",
-      camera: (name) => `Bilder von ${name}`,
-      from: "Ab diesem Bild",
-      to: "Bis zu diesem Bild",
-      whole: "Ganzes Ereignis",
-      range: (from, to) => [from === null ? "" : `ab ${from} s`, to === null ? "" : `bis ${to} s`]
-        .filter(Boolean).join(" ") + " vom Auslöser",
-      make: "Als Datei exportieren",
-      making: (event, mebibytes) => `${event} wird exportiert: ${mebibytes} MiB`,
-      cancelled: "Abgebrochen: es gibt keine Datei.",
-      save: (file) => `${file} speichern`,
-      saved: (file) => `${file} wird gespeichert.`,
-    },
-    replays: {
-      title: "Ein Rezept ausprobieren",
-      help: "Das Ereignis wird mit einem anderen Rezept noch einmal gemessen. Was läuft, ändert sich nicht.",
-      recipe: "Rezept",
-      recorded: "Wie aufgezeichnet",
-      begin: "Noch einmal messen",
-      measuring: (event, done, of) => `${event} wird noch einmal gemessen: ${done} von ${of || "?"} Bildsätzen`,
-      cancelled: "Abgebrochen: es gibt kein Ergebnis.",
-      result: (sets, alarms, signals) => `${sets} Bildsätze wurden noch einmal gemessen. Abweichende Alarme: ` +
-        `${alarms}; abweichende Signale: ${signals}.`,
-      without: (count) => `${count} Bildsätze haben kein Bild.`,
-      unsettled: "Das Ereignis ist kurz: Raten, Mittelwerte und Verzögerungen können abweichen, weil fehlt, was davor " +
-        "war.",
-      then: "Wie aufgezeichnet",
-      now: "Mit dem Rezept",
-      raised: (level, from, to) => `${level}, ${from} s bis ${to} s`,
-      never: "nicht ausgelöst",
-      absent: "nicht überwacht",
-      more: (count) => `und ${count} weitere`,
-      signals: "Abweichende Signale",
-      largest: "Größte Abweichung",
-      first: "Zuerst bei",
-      sets: "Bildsätze",
-      values: (recorded, computed) => `${recorded} → ${computed}`,
-      tried: (amount) => `mit dem Rezept ${amount}`,
-    },
-    noSignals: "Das Ereignis hat keine Messwerte.",
-    frame: (camera, number) => `Bild ${number} von ${camera}`,
-    removeAsks: (cause) => `Dieses Ereignis endgültig löschen? ${cause}`,
-  },
+  recordings,
   fleet: {
     count: (all, gone, alarming, isFull) => [
       all === 1 ? "1 Gerät" : `${all} Geräte`,
