@@ -107,7 +107,11 @@ class Access(PageCase):
         eventually("the form", lambda: self.access_fields("password"))
         self.assertEqual(self.browser.find_elements(By.TAG_NAME, "canvas"), [])
         self.browser.keep_picture("login")
+        self.browser.hold_answers("api/v1/login")
         self.fill_access(user="admin", password="not the right one")
+        self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
+        self.assertEqual(len(self.browser.asked("api/v1/login")), 1, "a second press logs nobody in twice")
+        self.browser.let_go()
         eventually("the page says so",
                    lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
         self.assertEqual(self.session()["user"], "")

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Login and logout, and the first password.
-import { post, read } from "../appliance/api.js";
-import { element, field, setText } from "../elements/elements.js";
+import { patience, post, read } from "../appliance/api.js";
+import { element, field, oneAtATime, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
 const kRetryMs = 500;
+const kPasswordMs = 30000; // others' passwords are checked first, each for a second on a slow board
 const kFirstUser = "admin";
 const account = document.getElementById("account");
 const section = document.getElementById("access");
@@ -17,12 +18,15 @@ export const session = () => read("api/v1/session");
 function showForm(title, fields, action, send, onDone = () => location.reload()) {
   const refusal = element("p", { role: "alert", className: "wrong" });
   const form = element("form", {}, ...fields, element("button", {}, action), refusal);
-  form.addEventListener("submit", async (event) => {
-    event.preventDefault();
+  const submit = oneAtATime(async () => {
     setText(refusal, "");
     const refused = await send(Object.fromEntries(new FormData(form)));
     if (refused) setText(refusal, texts.refused(refused));
     else onDone();
+  });
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    submit();
   });
   setText(document.getElementById("access-title"), title);
   section.querySelector("form")?.remove();
@@ -31,11 +35,14 @@ function showForm(title, fields, action, send, onDone = () => location.reload())
   form.querySelector("input").focus();
 }
 
+const postPassword = (path, body) => post(path, body, patience(kPasswordMs));
+const logIn = (values) => postPassword("api/v1/login", values);
+
 function showLogin(onDone) {
   showForm(texts.logInTitle, [
     field(texts.user, { name: "user", autocomplete: "username" }),
     field(texts.password, { name: "password", type: "password", autocomplete: "current-password" }),
-  ], texts.logIn, (values) => post("api/v1/login", values), onDone);
+  ], texts.logIn, logIn, onDone);
 }
 
 export function newPasswordFields(characters) {
@@ -54,7 +61,7 @@ function showFirstCode(characters) {
     ...newPasswordFields(characters),
   ], texts.setPassword, async ({ code, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
-    return post("api/v1/set_first_password", { code, password });
+    return postPassword("api/v1/set_first_password", { code, password });
   });
 }
 
@@ -64,8 +71,8 @@ function showFirstPassword(characters) {
     ...newPasswordFields(characters),
   ], texts.setPassword, async ({ user, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
-    const refused = await post("api/v1/set_user", { user, role: "administrator", password });
-    return refused || post("api/v1/login", { user, password });
+    const refused = await postPassword("api/v1/set_user", { user, role: "administrator", password });
+    return refused || logIn({ user, password });
   });
 }
 
