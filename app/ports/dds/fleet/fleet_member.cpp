@@ -40,10 +40,13 @@ void FleetMember::open(const Entity& participant, const std::string& address) {
   is_open_ = opened.has_value();
   if (is_open_) return;
   close();
-  log_line(LogLevel::Warning,
-           opened.error().message +
-               "; this appliance neither shows nor appears in the fleet list. Keys of an earlier "
-               "version do not permit it: `orbwatch dds-keys` makes new ones");
+  const char* const remedy =
+      is_refused_by_security(opened.error())
+          ? ". Keys of an earlier version do not permit it: `orbwatch dds-keys` makes new ones"
+          : "";
+  log_line(LogLevel::Warning, opened.error().message +
+                                  "; this appliance neither shows nor appears in the fleet list" +
+                                  remedy);
 }
 
 Result<> FleetMember::open_all(const Entity& participant) {
