@@ -106,7 +106,10 @@ Result<> ImageFiles::prepare_record(const std::string& version) const {
 Result<> ImageFiles::keep_record() const {
   std::error_code error;
   fs::rename(record().string() + ".new", record(), error);
-  if (error) return fail(record().string() + ": " + error.message());
+  const auto kept = tried();
+  const bool is_kept =
+      error == std::errc::no_such_file_or_directory && kept && kept->waits_for_start;
+  if (error && !is_kept) return fail(record().string() + ": " + error.message());
   return hal::sync_folder(record().parent_path());
 }
 

@@ -48,7 +48,8 @@ class ImageFiles {
 
   /// Prepares the record that `version` is installed, which also proves that there is room for it.
   Result<> prepare_record(const std::string& version) const;
-  /// Puts the prepared record in place. Error: the data partition.
+  /// Puts the prepared record in place, unless the image's keep_record has. Error: the data
+  /// partition.
   Result<> keep_record() const;
 
  private:

@@ -64,6 +64,15 @@ class TrialRecords(unittest.TestCase):
             partition.rename(data)
         return said
 
+    def test_record_is_kept_when_the_program_that_prepared_it_has_ended(self):
+        self.run_script("keep_record")
+        self.assertFalse(self.record.exists(), "nothing was prepared")
+        prepared = self.record.with_suffix(".new")
+        prepared.write_text("3\n", encoding="utf-8")
+        self.run_script("keep_record")
+        self.assertEqual(self.record.read_text(encoding="utf-8"), "3\n")
+        self.assertFalse(prepared.exists())
+
     def test_console_names_a_version_that_was_not_kept(self):
         self.record.write_text("3\nf2c4e1f0-0000-4000-8000-000000000000\n", encoding="utf-8")
         self.assertEqual(self.lines(), ["orbwatch 2.0, slot a", "version 3 was tried and not kept"])

@@ -50,6 +50,17 @@ TEST(ImageFilesOnDisk, DistinguishAnInstalledVersionFromOneThatWasTried) {
   EXPECT_FALSE(root.files().tried()->waits_for_start);
 }
 
+TEST(ImageFilesOnDisk, LeaveARecordThatTheImageHasKept) {
+  const ImageRoot root;
+  EXPECT_FALSE(root.files().keep_record()) << "nothing is prepared";
+  ASSERT_TRUE(root.files().prepare_record("1.10"));
+  std::filesystem::rename(root.path() / "data/update/tried.new", root.path() / "data/update/tried");
+  EXPECT_TRUE(root.files().keep_record());
+  EXPECT_EQ(root.files().tried()->version, "1.10");
+  root.restart("second");
+  EXPECT_FALSE(root.files().keep_record()) << "it is of an earlier start";
+}
+
 TEST(ImageFilesOnDisk, TakeARecordOfAnOlderVersionAsTried) {
   const ImageRoot root;
   root.write("data/update/tried", "1.8\n");
