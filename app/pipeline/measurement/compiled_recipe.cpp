@@ -139,6 +139,18 @@ bool CompiledRecipe::is_set(hal::TimePoint set_since) const {
   });
 }
 
+bool CompiledRecipe::is_exposed_since(hal::TimePoint moment) const {
+  return std::ranges::all_of(frames_, [moment](const MeasuredFrame& frame) {
+    return !frame.view || frame.exposed >= moment;
+  });
+}
+
+void CompiledRecipe::skip_exposed_before(hal::TimePoint moment) {
+  for (std::size_t i = 0; i < meters_.size(); ++i) {
+    if (frames_[meters_[i].view].exposed < moment) regions_[i] = {};
+  }
+}
+
 void CompiledRecipe::skip() { regions_.fill({}); }
 
 std::optional<bool> CompiledRecipe::has_hot_spot() const {

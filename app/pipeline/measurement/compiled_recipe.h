@@ -55,6 +55,10 @@ class CompiledRecipe {
   /// True if the frame of each measured camera that has one was exposed with all settings made
   /// until `set_since`.
   bool is_set(hal::TimePoint set_since) const;
+  /// True if the frame of each measured camera that has one was exposed from `moment` on.
+  bool is_exposed_since(hal::TimePoint moment) const;
+  /// Leaves the regions without a measurement whose frame was exposed before `moment`.
+  void skip_exposed_before(hal::TimePoint moment);
   /// Leaves every region without a measurement.
   void skip();
 

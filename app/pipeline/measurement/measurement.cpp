@@ -2,12 +2,16 @@
 #include "app/pipeline/measurement/measurement.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "app/model/status/result_number.h"
 
 namespace orbwatch::app::pipeline {
 namespace {
+
+/// Longest wait of a commanded trigger for a frame of each measured camera.
+constexpr auto kTriggerWait = std::chrono::seconds(1);
 
 std::vector<std::uint16_t> numbers_of(const std::vector<std::unique_ptr<CompiledRecipe>>& recipes) {
   std::vector<std::uint16_t> numbers;
@@ -126,14 +130,26 @@ void Measurement::idle(bool blind) {
 }
 
 /// True if the set is a result. Every triggered set is one, even when nothing could be measured,
-/// because the sender of the trigger waits for it. A set with a trigger of its own also answers a
-/// commanded trigger: the pacing camera has changed since the command, and the command triggered
-/// the new one.
+/// because the sender of the trigger waits for it.
 bool Measurement::is_result(const hal::FrameSet& set) {
-  const hal::Clock::rep since = trigger_;
-  const bool is_commanded = since != 0 && set.stamp.time_since_epoch().count() >= since;
+  const bool is_commanded = answers_command(set);
   if (is_commanded) trigger_ = 0;
   return is_commanded || set.trigger.has_value();
+}
+
+/// True if the set answers the pending trigger command. A frame that was exposed before it, held
+/// from an earlier set, may show the part before: the set waits for a newer one. A set with a
+/// trigger of its own does not: the pacing camera has changed since the command, and the command
+/// triggered the new one.
+bool Measurement::answers_command(const hal::FrameSet& set) {
+  const hal::Clock::rep since = trigger_;
+  if (since == 0) return false;
+  const hal::TimePoint given{hal::Clock::duration(since)};
+  if (set.stamp < given) return false;
+  if (set.trigger || recipe_->is_exposed_since(given)) return true;
+  if (set.stamp < given + kTriggerWait) return false;
+  recipe_->skip_exposed_before(given);
+  return true;
 }
 
 std::optional<bool> Measurement::process_active() const {

@@ -44,7 +44,8 @@ class Measurement {
   /// Selects a recipe by its number, for frame sets exposed from now on. ArgumentOutOfRange: no
   /// such recipe.
   CommandResult select_recipe(std::size_t number);
-  /// Makes a result of the next frame set exposed from now on. Busy: one is pending.
+  /// Makes a result of the next frame set whose measured frames are all exposed from now on; after
+  /// a second without one, a result without those that are older. Busy: one is pending.
   CommandResult trigger();
   /// Acknowledges an alarm by its number, from 1; 0: all. ArgumentOutOfRange: the recipe has no
   /// such alarm.
@@ -98,6 +99,7 @@ class Measurement {
 
   void change_to(CompiledRecipe& recipe);
   bool is_result(const hal::FrameSet& set);
+  bool answers_command(const hal::FrameSet& set);
   void suppress_previous(hal::TimePoint now, const Notify& notify);
   void notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
                  const Notify& notify, const Giver& by = {});

@@ -262,6 +262,27 @@ TEST_F(MeasurementTest, ASetWithATriggerOfItsOwnAnswersACommandedOne) {
   EXPECT_EQ(measurement->trigger(), CommandResult::Done);
 }
 
+TEST_F(MeasurementTest, ACommandedTriggerWaitsForAFrameExposedAfterIt) {
+  measure_by_two();
+  expose();
+  ASSERT_EQ(measurement->trigger(), CommandResult::Done);
+  EXPECT_EQ(process(Clock::now(), {}, true).result, 0U) << "shows the part before";
+  EXPECT_EQ(measurement->trigger(), CommandResult::Busy);
+  const Status next = expose();
+  EXPECT_EQ(next.result, 1U);
+  EXPECT_TRUE(is_measured(next));
+}
+
+TEST_F(MeasurementTest, ACommandedTriggerWithoutASecondFrameIsAResultWithoutMeasurement) {
+  measure_by_two();
+  expose();
+  ASSERT_EQ(measurement->trigger(), CommandResult::Done);
+  const Status late = process(Clock::now() + seconds(2), {}, true);
+  EXPECT_EQ(late.result, 1U);
+  EXPECT_FALSE(is_measured(late));
+  EXPECT_EQ(measurement->trigger(), CommandResult::Done) << "the one before was answered";
+}
+
 TEST_F(MeasurementTest, EveryTriggerThatIsTakenIsOneResultWhoeverCommands) {
   measure_by_two();
   std::atomic<std::uint64_t> taken{0};
