@@ -78,9 +78,20 @@ std::vector<fs::path> folders_of(const fs::path& configuration, const fs::path& 
   return folders;
 }
 
-/// Error: the folder records another configuration file. `owned`: folders that record this one.
+/// True if this user may not look into a state folder, so that its owner is unknown.
+bool is_denied(const fs::path& folder) {
+  std::error_code error;
+  return !fs::exists(owner_record(folder), error) && error == std::errc::permission_denied;
+}
+
+/// Error: the folder records another configuration file, or this user may not look into it.
+/// `owned`: folders that record this one.
 Result<fs::path> check_owner(const fs::path& folder, const fs::path& configuration,
                              const std::vector<fs::path>& owned) {
+  if (is_denied(folder)) {
+    return fail(folder.string() +
+                ": only root and its service may look into it; run the command with sudo");
+  }
   const auto owner = owner_of(folder);
   if (!owner || is_same(*owner, configuration)) return folder;
   const std::string own = owned.empty() ? "FOLDER" : owned.front().string();

@@ -33,8 +33,8 @@ std::string unit_of(const std::filesystem::path& configuration);
 /// 2. state_directory();
 /// 3. the folder orbwatch or orbwatch-* below `lib` that records this configuration file;
 /// 4. orbwatch-NAME below `lib` for /etc/orbwatch/NAME/site.toml, orbwatch for any other file.
-/// Error: 2 or 4 records another configuration file, or several folders record this one; the
-/// message states what to set. Not while the environment is changed.
+/// Error: 2 or 4 records another configuration file or cannot be read by this user, or several
+/// folders record this one; the message states what to set. Not while the environment is changed.
 Result<std::filesystem::path> state_folder(const std::filesystem::path& configured,
                                            const std::filesystem::path& configuration,
                                            const std::filesystem::path& lib = "/var/lib");

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/support/service_user.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -72,6 +73,17 @@ TEST_F(StateFolder, OfAnotherConfigurationIsRefusedWithWhatToSay) {
   ::setenv("STATE_DIRECTORY", (lib() / "orbwatch").c_str(), 1);
   EXPECT_THAT(found(second_), HasSubstr("STATE_DIRECTORY=" + (lib() / "orbwatch-press").string()));
   EXPECT_EQ(found("/data/first.toml"), "orbwatch");
+}
+
+TEST_F(StateFolder, OfAServiceIsNotGuessedByAnotherUser) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  runs_with("orbwatch", first_);
+  fs::permissions(lib(), fs::perms(0755));
+  fs::permissions(lib() / "orbwatch", fs::perms(0750));
+  EXPECT_TRUE(orbwatch::tests::as_user(orbwatch::tests::kStranger, 077, [this] {
+    const std::string denied = "may look into it; run the command with sudo";
+    return found(first_).ends_with(denied) && found("/home/kim/site.toml").ends_with(denied);
+  }));
 }
 
 TEST_F(StateFolder, OneOfSeveralIsNotGuessed) {
