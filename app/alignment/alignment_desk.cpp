@@ -9,6 +9,7 @@
 #include "app/alignment/figure_text.h"
 #include "app/alignment/work_bound.h"
 #include "app/log.h"
+#include "hal/fault.h"
 
 namespace orbwatch::app {
 
@@ -63,8 +64,12 @@ CommandResult AlignmentDesk::register_to_first(std::size_t camera) {
 }
 
 CommandResult AlignmentDesk::correct(std::size_t camera) {
-  return begin(camera, watch_.is_watched(camera),
-               [this, camera](const auto&, const auto&) { return finder_.correct(camera); });
+  const auto task = [this, camera](const auto&, const auto&) -> Result<Found> {
+    const hal::Fault fault = watch_.fault(camera);
+    if (fault == hal::Fault::None) return finder_.correct(camera);
+    return fail("there is no picture: " + std::string(operator_text(fault)));
+  };
+  return begin(camera, watch_.is_watched(camera), task);
 }
 
 CommandResult AlignmentDesk::mark(std::size_t camera, const optics::Vec3& point) {

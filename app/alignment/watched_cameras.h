@@ -28,7 +28,7 @@ class WatchedCameras {
   /// Fault of a camera, by the newest status.
   virtual hal::Fault fault(std::size_t camera) const = 0;
 
-  /// The newest drift of a camera that is watched and was seen.
+  /// The newest drift of a camera that is watched, was seen and has no fault.
   virtual std::optional<align::DriftState> drift(std::size_t camera) const = 0;
 
   /// Has the next picture of a watched camera copied for `reader`, which is called once, on a

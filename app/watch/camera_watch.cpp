@@ -29,13 +29,26 @@ void CameraWatch::Watched::look() {
   ball.observe(frame->picture, taken, seen);
   {
     const std::lock_guard lock(mutex);
-    figures = seen;
-    drift = alignment.drift();
+    if (!is_outdated) {
+      figures = seen;
+      drift = alignment.drift();
+    }
   }
   record();
   serve_readers();
   frame.reset();
   looking.store(false, std::memory_order_release);
+}
+
+/// Forgets figures and drift of before a fault: the camera may have been moved since. The zero and
+/// the clean ball stay learnt.
+void CameraWatch::Watched::forget() {
+  const std::lock_guard lock(mutex);
+  is_outdated = true;
+  drift.reset();
+  figures = {.outline_check = figures.outline_check,
+             .outline_offset = figures.outline_offset,
+             .outline_offset_px = figures.outline_offset_px};
 }
 
 void CameraWatch::Watched::record() {
@@ -131,6 +144,7 @@ void CameraWatch::accept_frames(const hal::FrameSet& set) {
     if (!camera || !camera->can_look(set, i) || (camera->wanted > 0 && !is_record)) continue;
     camera->frame = set.frames[i];
     camera->stamp = set.stamp;
+    camera->is_outdated = false;
     camera->looking.store(true, std::memory_order_release);
     camera->work.request();
   }
@@ -138,7 +152,11 @@ void CameraWatch::accept_frames(const hal::FrameSet& set) {
 }
 
 void CameraWatch::accept(const Status& status) {
-  for (std::size_t i = 0; i < cameras_.size(); ++i) faults_[i] = status.cameras[i].fault;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const hal::Fault fault = status.cameras[i].fault;
+    faults_[i] = fault;
+    if (cameras_[i] && fault != hal::Fault::None) cameras_[i]->forget();
+  }
 }
 
 std::array<CameraWatchStatus, kMaxCameras> CameraWatch::figures() const {

@@ -49,7 +49,9 @@ class CameraWatch : public Sink, public WatchedCameras {
   void accept(const ViewPtr& /*view*/) override {}
   void accept(const Status& status) override;
 
-  /// Figures of the newest pictures, by camera.
+  /// Figures of the newest pictures, by camera. Those of a camera with a fault are not measured,
+  /// and stay so until a picture that came after the fault was looked at; only the outline check,
+  /// which is of the zero's picture, remains.
   std::array<CameraWatchStatus, kMaxCameras> figures() const;
 
   bool is_watched(std::size_t camera) const override {
@@ -57,6 +59,7 @@ class CameraWatch : public Sink, public WatchedCameras {
   }
 
   hal::Fault fault(std::size_t camera) const override { return faults_[camera]; }
+  /// The newest drift, which a fault ends as it ends the figures.
   std::optional<align::DriftState> drift(std::size_t camera) const override;
   void ask(std::size_t camera, std::function<void(RecordedPicture)> reader) override;
   void ask_together(std::vector<std::size_t> cameras, FrameSetCopies::Reader reader) override {
@@ -85,6 +88,7 @@ class CameraWatch : public Sink, public WatchedCameras {
             std::shared_ptr<hal::SharedThreads> outline_threads);
     bool can_look(const hal::FrameSet& set, std::size_t camera) const;
     void look();
+    void forget();
     void record();
     void serve_readers();
 
@@ -98,6 +102,7 @@ class CameraWatch : public Sink, public WatchedCameras {
     mutable hal::PriorityMutex mutex;  ///< guards these two, held only while they are copied
     CameraWatchStatus figures;
     std::optional<align::DriftState> drift;
+    std::atomic<bool> is_outdated{false};  ///< a fault came after `frame`; set under `mutex`, too
     std::vector<std::function<void(RecordedPicture)>> readers;  ///< under `mutex`, too
     Records& records;
     std::atomic<std::size_t> wanted{0};     ///< pictures; changed under records.mutex

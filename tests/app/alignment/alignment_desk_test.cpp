@@ -27,7 +27,7 @@ class OnePicture : public WatchedCameras {
   explicit OnePicture(cv::Mat picture) : picture_(std::move(picture)) {}
 
   bool is_watched(std::size_t /*camera*/) const override { return true; }
-  hal::Fault fault(std::size_t /*camera*/) const override { return hal::Fault::None; }
+  hal::Fault fault(std::size_t /*camera*/) const override { return faulted; }
   std::optional<align::DriftState> drift(std::size_t /*camera*/) const override { return drifted; }
   void ask(std::size_t /*camera*/, std::function<void(RecordedPicture)> reader) override {
     reader(copied(picture_of_mat(picture_), {}));
@@ -79,6 +79,7 @@ class OnePicture : public WatchedCameras {
 
   bool is_deaf = false;  ///< set before the first call
   std::optional<align::DriftState> drifted;
+  hal::Fault faulted = hal::Fault::None;
 
  private:
   cv::Mat picture_;
@@ -275,6 +276,19 @@ TEST_F(AlignmentDeskTest, CorrectsADriftOnceHoweverOftenItIsAskedTo) {
   ASSERT_EQ(desk->turn(0, {5, 0, 0}), CommandResult::Done);
   ASSERT_EQ(desk->correct(0), CommandResult::Done);
   expect_same_place(report_after_work(), once);
+}
+
+TEST_F(AlignmentDeskTest, ACorrectionOfACameraWithAFaultIsRefusedWithTheFault) {
+  watch.drifted.emplace();
+  watch.drifted->level = align::DriftLevel::Warning;
+  watch.drifted->outline = desk->report(0).in_force->outline;
+  watch.faulted = hal::Fault::Unplugged;
+  ASSERT_EQ(desk->correct(0), CommandResult::Done);
+  const AlignmentReport report = report_after_work();
+  EXPECT_EQ(report.state, ProposalState::Refused);
+  EXPECT_EQ(report.refusal,
+            "there is no picture: " + std::string(operator_text(hal::Fault::Unplugged)));
+  EXPECT_FALSE(report.proposed);
 }
 
 TEST_F(AlignmentDeskTest, PutsAStatedAlignmentInForceByTheRecordAndARestart) {

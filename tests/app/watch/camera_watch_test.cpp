@@ -132,10 +132,10 @@ class OutlineTest : public CameraWatchTest {
     camera.distance = 12;
     site.rig.cameras = {camera};
     site.cameras = {{"a", 0, {}}};
-    watch.emplace(site, folder.path(), hal::SharedThreads::alone(), outline_threads);
+    watch.emplace(site, folder.path(), threads, outline_threads);
   }
-  /// Shows one picture; returns when no one holds it.
-  void show() {
+  /// Shows one picture; the result expires when no one holds it any more.
+  std::weak_ptr<const hal::FrameBuffer> give() {
     hal::FrameSet set;
     set.stamp = stamp += std::chrono::milliseconds(100);
     auto buffer = hal::make_frame_pool(PixelFormat::Grey, picture.cols, picture.rows, 1).acquire();
@@ -144,11 +144,16 @@ class OutlineTest : public CameraWatchTest {
     const std::weak_ptr<const hal::FrameBuffer> held = buffer;
     set.frames[0] = std::move(buffer);
     watch->accept_frames(set);
-    set.frames = {};
+    return held;
+  }
+  /// Shows one picture; returns when no one holds it.
+  void show() {
+    const auto held = give();
     ASSERT_TRUE(orbwatch::tests::comes_true([&] { return held.expired(); })) << "it is still held";
   }
 
   const cv::Mat picture = align::painted_ball(align::kPaintedSize, align::kPaintedLimb);
+  std::shared_ptr<hal::SharedThreads> threads = hal::SharedThreads::alone();
   std::shared_ptr<hal::SharedThreads> outline_threads = hal::SharedThreads::alone();
 };
 
@@ -170,6 +175,74 @@ TEST_F(OutlineTest, NoFrameIsHeldWhileTheOutlineIsChecked) {
     show();
     return watch->figures()[0].outline_check == OutlineState::NotAligned;
   }));
+}
+
+/// A camera whose zero is learnt and whose outline is checked.
+class FaultTest : public OutlineTest {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(orbwatch::tests::comes_true([&] {
+      show();
+      return watch->figures()[0].outline_check == OutlineState::NotAligned;
+    }));
+    expect_measured();
+  }
+  void report(hal::Fault fault) {
+    Status status;
+    status.cameras[0].fault = fault;
+    watch->accept(status);
+  }
+  void expect_measured() {
+    EXPECT_EQ(watch->figures()[0].alignment, AlignmentLevel::Good);
+    EXPECT_TRUE(signals::is_valid(watch->figures()[0].drift_error));
+    EXPECT_TRUE(watch->drift(0));
+  }
+  void expect_not_measured(const char* when) {
+    const CameraWatchStatus seen = watch->figures()[0];
+    EXPECT_FALSE(watch->drift(0)) << when;
+    EXPECT_EQ(seen.alignment, AlignmentLevel::NotMeasured) << when;
+    EXPECT_FALSE(signals::is_valid(seen.drift_error)) << when;
+    EXPECT_FALSE(signals::is_valid(seen.drift_shift)) << when;
+    EXPECT_EQ(seen.focus, WatchLevel::NotMeasured) << when;
+    EXPECT_FALSE(signals::is_valid(seen.blur)) << when;
+    EXPECT_EQ(seen.outline_check, OutlineState::NotAligned) << when << ": it needs no new picture";
+    EXPECT_TRUE(signals::is_valid(seen.outline_offset)) << when;
+  }
+  /// The zero is still known: one picture is enough.
+  void expect_measured_by_the_next_picture() {
+    EXPECT_TRUE(orbwatch::tests::comes_true([&] {
+      show();
+      return watch->drift(0).has_value();
+    }));
+    expect_measured();
+  }
+};
+
+TEST_F(FaultTest, NothingMeasuredRemainsUntilTheNextPicture) {
+  report(hal::Fault::Unplugged);
+  expect_not_measured("with the fault");
+  report(hal::Fault::None);
+  expect_not_measured("before the next picture");
+  expect_measured_by_the_next_picture();
+}
+
+TEST_F(FaultTest, APictureFromBeforeTheFaultMeasuresNothingAfterIt) {
+  std::shared_future<void> may;
+  hal::SharedThreads::Work before(threads, [&may] { may.wait(); });
+  std::promise<void> look;  // destroyed before the work, which then waits no longer
+  may = look.get_future().share();
+  before.request();
+  std::weak_ptr<const hal::FrameBuffer> held;
+  ASSERT_TRUE(orbwatch::tests::comes_true([&] {
+    held = give();
+    return !held.expired();
+  })) << "the look at it waits";
+  report(hal::Fault::Stalled);
+  report(hal::Fault::None);
+  look.set_value();
+  ASSERT_TRUE(orbwatch::tests::comes_true([&] { return held.expired(); }));
+  expect_not_measured("after the look");
+  expect_measured_by_the_next_picture();
 }
 
 }  // namespace
