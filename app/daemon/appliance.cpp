@@ -84,7 +84,10 @@ Appliance::Appliance(const files::Resolved& site)
       lines_(open_lines(site.site)) {}
 
 Appliance::~Appliance() {
-  if (pipeline_) pipeline_->stop();
+  if (pipeline_) {
+    keep_measured_recipe();  // before anything that may hang
+    pipeline_->stop();
+  }
   if (controller_) controller_->stop();
   if (interfaces_) interfaces_->stop();
   if (alignment_) alignment_->stop();
@@ -193,6 +196,15 @@ void Appliance::restore() {
                     : recipe +
                           ", selected before the restart, is not there any more; begins with "
                           "the first one");
+}
+
+/// Records the recipe that is measured in place of the selected one if a camera refused that, so
+/// that a restart of this program changes no recipe. The command was answered before the refusal.
+void Appliance::keep_measured_recipe() {
+  const auto refusal = pipeline_->recipe_refusal();
+  if (!refusal) return;
+  record_->replace_recipe(static_cast<std::uint16_t>(refusal->wanted),
+                          static_cast<std::uint16_t>(refusal->kept));
 }
 
 std::array<CameraWatchStatus, kMaxCameras> Appliance::watched() const {

@@ -85,6 +85,7 @@ class Appliance {
   void follow_recording(pipeline::PipelinePlan& plan, std::filesystem::path recording);
   Result<> start_pipeline(const std::vector<Sink*>& watchers);
   void restore();
+  void keep_measured_recipe();
   void log_start() const;
 
   const files::Resolved& site_;

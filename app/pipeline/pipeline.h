@@ -142,6 +142,12 @@ class Pipeline {
   CommandResult acknowledge_alarm(std::size_t number, const Giver& by = {});
   CommandResult set_process_active(bool active);
 
+  /// Selection of a recipe that a camera refused: see Measurement::refusal(). nullopt without a
+  /// recipe.
+  std::optional<RecipeSwitch::Refusal> recipe_refusal() const {
+    return measurement_ ? measurement_->refusal() : std::nullopt;
+  }
+
  private:
   /// Exchange that take_over() waits for.
   struct Exchange {

@@ -67,13 +67,8 @@ Selection kept(const StoredSelection& selection) {
 
 }  // namespace
 
-CommandRecord::CommandRecord(const std::filesystem::path& folder) {
-  const auto content =
-      SlotFile::open(folder / kFile).and_then([this](std::unique_ptr<SlotFile> opened) {
-        file_ = std::move(opened);
-        is_kept_ = true;
-        return file_->content();
-      });
+CommandRecord::CommandRecord(const std::filesystem::path& folder) : path_(folder / kFile) {
+  const auto content = open().and_then([this] { return file_->content(); });
   if (content) {
     load(*content);
     return;
@@ -84,6 +79,20 @@ CommandRecord::CommandRecord(const std::filesystem::path& folder) {
                                   "it may have been before");
 }
 
+Result<> CommandRecord::open() {
+  return SlotFile::open(path_).map([this](std::unique_ptr<SlotFile> opened) {
+    file_ = std::move(opened);
+    is_kept_ = true;
+  });
+}
+
+/// Opens the file of a folder that was not usable at the start; without it the next start would
+/// take the file's last command, which is outdated, for the newest.
+void CommandRecord::retry_open() {
+  if (file_ || path_.empty() || !open()) return;
+  log_line(LogLevel::Info, path_.string() + ": is usable again; commands are recorded from now on");
+}
+
 std::vector<CommandRecord::Entry> CommandRecord::entries() const {
   const std::lock_guard lock(mutex_);
   return entries_;
@@ -92,6 +101,13 @@ std::vector<CommandRecord::Entry> CommandRecord::entries() const {
 Selection CommandRecord::selection() const {
   const std::lock_guard lock(mutex_);
   return selection_;
+}
+
+void CommandRecord::replace_recipe(std::uint16_t refused, std::uint16_t measured) {
+  const std::lock_guard lock(mutex_);
+  if (selection_.recipe != refused) return;
+  selection_.recipe = measured;
+  save();
 }
 
 CommandResult CommandRecord::carry_out(const CommandId& id, const Command& command,
@@ -112,6 +128,7 @@ CommandResult CommandRecord::carry_out_audited(const CommandId& id, const Comman
 /// Records the command as begun. False: it must not be executed.
 bool CommandRecord::begin(const CommandId& id, CommandCode code) {
   const std::lock_guard lock(mutex_);
+  retry_open();
   const bool may_be_known = is_first_of_unknown(id.client);
   Entry& entry = renew(id.client);
   entry = {id, static_cast<std::uint16_t>(code),

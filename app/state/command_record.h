@@ -14,6 +14,7 @@
 #include "app/model/command/command.h"
 #include "app/state/slot_file.h"
 #include "hal/thread/bounded_queue.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::app {
 
@@ -49,7 +50,9 @@ struct UnauditedCommand {
 /// its result before the answer. So a command is executed at most once, whatever ends the process.
 /// A command during which the process ended reads Interrupted. Without a usable folder, or with a
 /// damaged file, it is unknown which commands were executed before: the first command of each
-/// client is answered NotCarriedOut, like a command that cannot be recorded in an open file.
+/// client is answered NotCarriedOut, like a command that cannot be recorded in an open file. Each
+/// command tries the folder again; once it is usable, its file holds the commands of this run, not
+/// those of an earlier one, which the clients' ports do not know.
 ///
 /// It also keeps the selected recipe and the state stopped, for the next run when the process
 /// executes itself again: with another alignment, other files or on command. Such a restart occurs
@@ -94,6 +97,10 @@ class CommandRecord {
   /// Selections of this process's runs so far.
   Selection selection() const;
 
+  /// Replaces the selected recipe `refused`, which a camera refused after its command was done, by
+  /// the one that is measured. Another selection is a newer one, and stays. Waits for the disk.
+  void replace_recipe(std::uint16_t refused, std::uint16_t measured);
+
   /// Executes a command that the caller found to be new, by entries() and by the commands that it
   /// passed since. Afterwards it waits for the audit, also if it was not carried out.
   CommandResult carry_out(const CommandId& id, const Command& command,
@@ -111,6 +118,8 @@ class CommandRecord {
   std::uint64_t lost_unaudited() const { return unaudited_.drops(); }
 
  private:
+  Result<> open();
+  void retry_open();
   bool begin(const CommandId& id, CommandCode code);
   void finish(const CommandId& id, const Command& command, CommandResult result);
   bool is_first_of_unknown(std::uint64_t client) const;
@@ -118,8 +127,9 @@ class CommandRecord {
   void load(const SlotFile::Content& content);
   bool save();
 
+  const std::filesystem::path path_;  ///< of the file; empty: there is none
   mutable std::mutex mutex_;  ///< guards the following members, also during writes to the disk
-  std::unique_ptr<SlotFile> file_;  ///< null: kept in memory only
+  std::unique_ptr<SlotFile> file_;  ///< null: kept in memory only, or not usable yet
   std::vector<Entry> entries_;      ///< oldest first
   Selection selection_;
   bool knows_plc_ = true;     ///< entries_ is complete for the PLC

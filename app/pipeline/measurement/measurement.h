@@ -44,6 +44,12 @@ class Measurement {
   /// Selects a recipe by its number, for frame sets exposed from now on. ArgumentOutOfRange: no
   /// such recipe.
   CommandResult select_recipe(std::size_t number);
+  /// Refused selection, by the recipes' numbers: see RecipeSwitch::refusal(). On any thread.
+  std::optional<RecipeSwitch::Refusal> refusal() const {
+    auto refused = switch_.refusal();
+    if (refused) *refused = {numbers_[refused->wanted], numbers_[refused->kept]};
+    return refused;
+  }
   /// Makes a result of the next frame set whose measured frames are all exposed from now on; after
   /// a second without one, a result without those that are older. Busy: one is pending.
   CommandResult trigger();

@@ -25,7 +25,7 @@ void RecipeSwitch::request(std::size_t recipe) {
     const std::lock_guard lock(mutex_);
     const auto now = hal::Clock::now();
     if (!changing_) changing_ = now;
-    failed_ = false;
+    refusal_.reset();
     pending_.reset();
     if (apply_) {
       requested_ = recipe;
@@ -48,9 +48,9 @@ std::optional<RecipeSwitch::Selection> RecipeSwitch::selection_at(hal::TimePoint
   return is_between || stamp < current_from_ ? std::nullopt : std::optional(current_);
 }
 
-bool RecipeSwitch::has_failed() const {
+std::optional<RecipeSwitch::Refusal> RecipeSwitch::refusal() const {
   const std::lock_guard lock(mutex_);
-  return failed_;
+  return refusal_;
 }
 
 void RecipeSwitch::run() {
@@ -76,7 +76,7 @@ void RecipeSwitch::change(std::size_t wanted) {
   const std::lock_guard lock(mutex_);
   ++changes_;
   if (requested_) return;  // the next change decides
-  failed_ = !done;
+  if (!done) refusal_ = Refusal{wanted, set_to_};
   pending_ = Pending{{set_to_, from, changes_}, from};
 }
 

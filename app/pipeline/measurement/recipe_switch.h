@@ -17,8 +17,8 @@ namespace orbwatch::app::pipeline {
 /// Selects recipes while frames run: sets the cameras on a thread of its own, off the frame path,
 /// and assigns each frame set to a recipe by its exposure. A set exposed after a request never
 /// belongs to an earlier recipe. Queue: one request; the newest wins.
-/// Thread rule: request and has_failed on any thread, selection_at on the pipeline's, start and
-/// stop on the main.
+/// Thread rule: request, refusal and has_failed on any thread, selection_at on the pipeline's,
+/// start and stop on the main.
 class RecipeSwitch {
  public:
   /// Sets the cameras' controls for a recipe; may wait for them.
@@ -33,6 +33,14 @@ class RecipeSwitch {
     std::uint64_t changes = 0;  ///< number of times that cameras were set since the start
 
     bool operator==(const Selection&) const = default;
+  };
+
+  /// Refused request: recipes by index.
+  struct Refusal {
+    std::size_t wanted = 0;
+    std::size_t kept = 0;  ///< the previous one, which stays selected
+
+    bool operator==(const Refusal&) const = default;
   };
 
   /// `first` is selected from the start; its settings are applied already. Without `apply` no
@@ -53,9 +61,10 @@ class RecipeSwitch {
   /// settings the cameras do not have yet, or before a selection that was returned already.
   std::optional<Selection> selection_at(hal::TimePoint stamp);
 
-  /// True if the cameras refused the newest request's settings and were set back to the previous
-  /// recipe's.
-  bool has_failed() const;
+  /// Newest request, if the cameras refused its settings and were set back to the previous
+  /// recipe's; nullopt: they took them, or are still being set.
+  std::optional<Refusal> refusal() const;
+  bool has_failed() const { return refusal().has_value(); }
 
   /// Ends the thread after the current request; repeating it does nothing.
   void stop();
@@ -79,7 +88,7 @@ class RecipeSwitch {
       changing_;                    ///< sets exposed from here on do not belong to `current_`
   std::optional<Pending> pending_;  ///< next selection, once it is known
   std::uint64_t changes_ = 0;
-  bool failed_ = false;
+  std::optional<Refusal> refusal_;
   hal::Thread thread_;
 };
 

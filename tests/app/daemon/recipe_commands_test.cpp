@@ -112,6 +112,28 @@ TEST_F(RecipeCommands, ACameraThatRefusesItsSettingsLeavesTheRecipe) {
   })) << "the controller hears of it";
 }
 
+TEST_F(RecipeCommands, ARestartAfterARefusedRecipeKeepsTheOneThatIsMeasured) {
+  const std::string config = two_recipes(with_control(kSmallRecipe, "TriggerMode", 0),
+                                         with_control(kSecondRecipe, "TriggerMode", 0));
+  std::ofstream(folder / "third.toml") << with_control(kSecondRecipe, "TriggerMode", 7);
+  std::ofstream(config, std::ios::app) << "[[recipe]]\nnumber = 3\nfile = \"third.toml\"\n";
+  Subprocess daemon = start(config);
+  ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {2}), CommandResult::Done);
+  ASSERT_TRUE(measures(daemon, 2)) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {3}), CommandResult::Done);
+  constexpr std::int64_t kRefused = 1 << 13;
+  ASSERT_TRUE(eventually(daemon, [&] {
+    const auto bits = read("status_bits");
+    return bits >= 0 && (bits & kRefused) != 0;
+  })) << daemon.output();
+  daemon.send(SIGHUP);
+  ASSERT_TRUE(says(daemon, ", as before the restart")) << daemon.output();
+  EXPECT_NE(daemon.output().find("recipe 2 is selected, as before the restart"), std::string::npos)
+      << daemon.output();
+  EXPECT_TRUE(measures(daemon, 2)) << daemon.output();
+}
+
 TEST_F(RecipeCommands, StoppedItKeepsTheRecipeAndMeasuresNothing) {
   Subprocess daemon = start(two_recipes());
   ASSERT_TRUE(measures(daemon, 1)) << daemon.output();

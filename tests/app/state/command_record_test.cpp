@@ -105,6 +105,26 @@ TEST_F(CommandRecordTest, KeepsWhatWasSelectedForThisProcessOnly) {
   EXPECT_EQ(status, 0) << "another process must not continue";
 }
 
+TEST_F(CommandRecordTest, ARefusedRecipeGivesWayToTheMeasuredOneUnlessItIsNoLongerSelected) {
+  const auto select = [](CommandRecord& record, std::uint64_t number, double recipe) {
+    record.carry_out({kPlcClient, number}, {CommandCode::SelectRecipe, {recipe}},
+                     [](const Command&) { return CommandResult::Done; });
+  };
+  auto record = open();
+  record->replace_recipe(3, 2);
+  EXPECT_EQ(record->selection(), Selection()) << "no command selected one";
+  select(*record, 1, 2);
+  select(*record, 2, 3);
+  record->replace_recipe(3, 2);
+  EXPECT_EQ(record->selection(), (Selection{2, false}));
+  record.reset();
+  record = open();
+  EXPECT_EQ(record->selection(), (Selection{2, false})) << "for the next run, too";
+  select(*record, 3, 4);
+  record->replace_recipe(3, 2);
+  EXPECT_EQ(record->selection(), (Selection{4, false})) << "selected after the refusal";
+}
+
 TEST_F(CommandRecordTest, WithoutAFolderTheFirstOfEachClientIsNotCarriedOut) {
   CommandRecord record("/proc/orbwatch");
   EXPECT_FALSE(record.is_kept());
@@ -115,6 +135,28 @@ TEST_F(CommandRecordTest, WithoutAFolderTheFirstOfEachClientIsNotCarriedOut) {
   EXPECT_EQ(carry_out(record, {1, 21}), CommandResult::Done);
   EXPECT_THAT(carried_out_, ElementsAre(8, 21));
   EXPECT_FALSE(record.is_kept());
+}
+
+TEST_F(CommandRecordTest, AFolderThatBecomesUsableHoldsTheNewestCommands) {
+  const auto folder = folder_ / "state", away = folder_ / "away";
+  carry_out(*std::make_unique<CommandRecord>(folder), {kPlcClient, 7});
+  std::filesystem::rename(folder, away);
+  tests::set_bytes(folder, "not a folder");
+  auto record = std::make_unique<CommandRecord>(folder);
+  EXPECT_EQ(carry_out(*record, {1, 20}), CommandResult::NotCarriedOut);
+  EXPECT_EQ(carry_out(*record, {kPlcClient, 8}), CommandResult::NotCarriedOut);
+  EXPECT_EQ(carry_out(*record, {kPlcClient, 9}), CommandResult::Done);
+  EXPECT_FALSE(record->is_kept());
+
+  std::filesystem::remove(folder);
+  std::filesystem::rename(away, folder);
+  EXPECT_EQ(carry_out(*record, {kPlcClient, 10}), CommandResult::Done);
+  EXPECT_TRUE(record->is_kept());
+  EXPECT_THAT(carried_out_, ElementsAre(7, 9, 10));
+  record.reset();
+  EXPECT_THAT(CommandRecord(folder).entries(),
+              ElementsAre(Entry{{1, 20}, kStopCode, CommandResult::NotCarriedOut},
+                          Entry{{kPlcClient, 10}, kStopCode, CommandResult::Done}));
 }
 
 TEST_F(CommandRecordTest, TheSecondOfTwoDaemonsKeepsNone) {

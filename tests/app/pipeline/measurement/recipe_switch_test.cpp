@@ -151,13 +151,16 @@ TEST(RecipeSwitch, RefusedSettingsGoBackAndThatIsSaid) {
   EXPECT_EQ(cameras.wait_for_request(), 1U) << "the one before";
   EXPECT_EQ(recipe_of(recipes), std::nullopt) << "some cameras may be set to the other";
   EXPECT_FALSE(recipes.has_failed()) << "not known as long as it is under way";
+  EXPECT_EQ(recipes.refusal(), std::nullopt);
   cameras.accept();
   const auto selection = settled(recipes);
   EXPECT_EQ(selection.recipe, 1U);
   EXPECT_EQ(selection.changes, 2U) << "cameras take on their settings again";
   EXPECT_TRUE(recipes.has_failed());
+  EXPECT_EQ(recipes.refusal(), (RecipeSwitch::Refusal{.wanted = 2, .kept = 1}));
   recipes.request(0);
   EXPECT_FALSE(recipes.has_failed()) << "that was another request";
+  EXPECT_EQ(recipes.refusal(), std::nullopt);
   cameras.accept();
   EXPECT_EQ(settled(recipes).recipe, 0U);
   EXPECT_FALSE(recipes.has_failed());
