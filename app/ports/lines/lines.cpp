@@ -27,6 +27,9 @@ std::unique_ptr<hal::LineBackEnd> make_simulated(
                                                nullptr, is_connected);
 }
 
+/// Bit of a line in Lines::faults().
+constexpr std::uint32_t fault_bit(std::size_t index) { return std::uint32_t{1} << index; }
+
 /// Logs a change of a line's fault, on the line thread. `before`: the previous fault.
 void log_fault(const std::string& name, hal::LineFault before, const hal::LineFaultReport& report) {
   const bool is_cleared = report.fault == hal::LineFault::None;
@@ -91,7 +94,7 @@ hal::WatchedInput& Lines::input(const std::string& name) {
 
 /// Returns the fault handler of a line; called on the line thread once it runs.
 hal::LineRetry::OnFault Lines::on_fault(std::size_t index, const std::string& name) {
-  return [this, bit = 1U << index, name,
+  return [this, bit = fault_bit(index), name,
           before = hal::LineFault::None](const hal::LineFaultReport& report) mutable {
     if (report.fault == hal::LineFault::None) {
       faults_ &= ~bit;
@@ -129,13 +132,14 @@ void Lines::open_output(std::size_t index, const LineSettings& settings) {
   thread_.add(*output);
   outputs_.push_back(output.get());
   if (is_pulsed(settings.use)) {
-    add_pulses(settings, std::move(output));
+    add_pulses(index, settings, std::move(output));
   } else {
     add_watchdog(settings, std::move(output));
   }
 }
 
-void Lines::add_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output) {
+void Lines::add_pulses(std::size_t index, const LineSettings& settings,
+                       std::unique_ptr<hal::DigitalOutput> output) {
   hal::PulseOutput::Outputs outputs;
   outputs.push_back(std::move(output));
   hal::PulseSettings pulse = settings.pulse;
@@ -143,7 +147,9 @@ void Lines::add_pulses(const LineSettings& settings, std::unique_ptr<hal::Digita
   auto& pulses = pulses_.emplace_back(
       std::make_unique<hal::PulseOutput>(pulse, std::move(outputs), [this] { thread_.wake(); }));
   thread_.add(*pulses);
-  if (settings.use == LineUse::TriggerOut) trigger_outputs_.push_back(pulses.get());
+  if (settings.use == LineUse::TriggerOut) {
+    trigger_outputs_.push_back({pulses.get(), fault_bit(index)});
+  }
   if (settings.source.empty()) return;
   input(settings.source).subscribe([pulse = pulses.get()](const hal::EdgeEvent& edge) {
     if (edge.edge == hal::Edge::Rising) pulse->fire(edge.stamp);
@@ -190,8 +196,9 @@ void Lines::trigger() {
 
 CommandResult Lines::pulse(std::size_t output) {
   if (output >= trigger_outputs_.size()) return CommandResult::ArgumentOutOfRange;
-  return trigger_outputs_[output]->fire(hal::Clock::now()) ? CommandResult::Done
-                                                           : CommandResult::Busy;
+  const auto& [pulses, fault] = trigger_outputs_[output];
+  if ((faults_ & fault) != 0) return CommandResult::NotPossible;
+  return pulses->fire(hal::Clock::now()) ? CommandResult::Done : CommandResult::Busy;
 }
 
 void Lines::accept(const Status& status) {

@@ -54,7 +54,8 @@ class Lines : public Sink {
   void trigger();
 
   /// Emits one pulse on a trigger_out line, by its index among those. ArgumentOutOfRange: no such
-  /// line; Busy: its last pulse has not ended. On any thread; does not wait.
+  /// line; NotPossible: it has a fault, see faults(); Busy: its last pulse has not ended. On any
+  /// thread; does not wait.
   CommandResult pulse(std::size_t output);
 
   /// Receiver of the requests of stop lines, called on the line thread; must not wait. Before
@@ -80,11 +81,17 @@ class Lines : public Sink {
     std::unique_ptr<hal::WatchedInput> line;
   };
 
+  struct TriggerOutput {
+    hal::PulseOutput* pulses;  ///< element of pulses_
+    std::uint32_t fault = 0;   ///< its bit in faults_
+  };
+
   void stop_threads();
   void open_input(std::size_t index, const LineSettings& settings);
   void add_stop(const LineSettings& settings, hal::WatchedInput& line);
   void open_output(std::size_t index, const LineSettings& settings);
-  void add_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
+  void add_pulses(std::size_t index, const LineSettings& settings,
+                  std::unique_ptr<hal::DigitalOutput> output);
   void add_watchdog(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
   hal::LineRetry::OnFault on_fault(std::size_t index, const std::string& name);
   hal::LineBackEnd& back_end(LineKind kind);
@@ -101,8 +108,7 @@ class Lines : public Sink {
   /// it.
   std::vector<std::unique_ptr<hal::LineThread>> asking_;
   std::vector<std::unique_ptr<hal::PulseOutput>> pulses_;
-  /// Elements of pulses_, in the configuration's order.
-  std::vector<hal::PulseOutput*> trigger_outputs_;
+  std::vector<TriggerOutput> trigger_outputs_;  ///< in the configuration's order
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;
   std::vector<std::unique_ptr<hal::WatchdogOutput>> alarms_;
   std::vector<hal::DigitalOutput*> outputs_;  ///< all outputs

@@ -121,6 +121,23 @@ TEST(MissingLines, AreFaultsUntilTheyCome) {
   lines.stop();
 }
 
+TEST(MissingLines, TakeNoPulseUntilTheyCome) {
+  std::atomic<bool> there = false;
+  Lines lines(
+      {line("door", LineUse::ProcessInput, "DOOR"), line("lamp", LineUse::TriggerOut, "LAMP"),
+       line("start", LineUse::TriggerOut, "START")},
+      [&there](const std::string& name) { return name != "START" || there; });
+  ASSERT_TRUE(lines.start());
+  EXPECT_EQ(lines.pulse(0), CommandResult::Done) << "of the line that is there";
+  EXPECT_EQ(lines.pulse(1), CommandResult::NotPossible);
+  EXPECT_EQ(lines.pulse(2), CommandResult::ArgumentOutOfRange);
+  there = true;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (lines.faults() != 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_EQ(lines.pulse(1), CommandResult::Done);
+  lines.stop();
+}
+
 TEST(StopLine, AsksWhenItIsHeldActive) {
   for (const bool power_off : {true, false}) {
     LineSettings supply = line("supply", LineUse::Stop, "UPS");
