@@ -126,7 +126,7 @@ Result<std::filesystem::path> replayed_recording(const files::Resolved& site) {
 
 RecordedMachine::RecordedMachine(std::filesystem::path recording, hal::Clock::duration timeout)
     : recording_(std::move(recording)), timeout_(timeout) {
-  machine::set_unknown(MachineQuality::NoState, status_);
+  status_.forget(MachineQuality::NoState);
 }
 
 Result<> RecordedMachine::load() {
@@ -172,7 +172,7 @@ const MachineStatus& RecordedMachine::follow(const hal::FrameSet& set) {
   const std::uint64_t count = status_.states;
   const State* const found = find(set_time);
   if (found == nullptr) {
-    machine::set_unknown(MachineQuality::NoState, status_);
+    status_.forget(MachineQuality::NoState);
     return status_;
   }
   const bool has_moment = found->machine.state != hal::TimePoint{};
@@ -184,7 +184,7 @@ const MachineStatus& RecordedMachine::follow(const hal::FrameSet& set) {
 
 const MachineStatus& RecordedMachine::keep(hal::TimePoint now) {
   const bool is_stale = status_.quality != MachineQuality::NoState && now - newest_ > timeout_;
-  if (is_stale) machine::set_unknown(MachineQuality::Stale, status_);
+  if (is_stale) status_.forget(MachineQuality::Stale);
   return status_;
 }
 

@@ -43,7 +43,7 @@ MachineFollower::MachineFollower(const MachineSettings& settings)
       rotation_(
           optics::rotation({settings.rotation[0], settings.rotation[1], settings.rotation[2]})),
       track_(settings.timeout, settings.delay) {
-  if (settings_.source != MachineSource::None) set_unknown(MachineQuality::NoState, status_);
+  if (settings_.source != MachineSource::None) status_.forget(MachineQuality::NoState);
 }
 
 MachinePath MachineFollower::path() {
@@ -141,10 +141,10 @@ const MachineStatus& MachineFollower::keep(hal::TimePoint now) {
 }
 
 void MachineFollower::update_fault(hal::TimePoint now) {
-  if (track_.is_silent(now)) return set_unknown(MachineQuality::Stale, status_);
+  if (track_.is_silent(now)) return status_.forget(MachineQuality::Stale);
   if (!is_fault(status_.quality)) return;
   track_.report(now, status_);
-  set_unknown(status_.quality, status_);  // values at `now` are not those of the last exposure
+  status_.forget(status_.quality);  // values at `now` are not those of the last exposure
 }
 
 void MachineFollower::say_quality(MachineQuality before) const {

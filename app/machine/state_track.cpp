@@ -47,14 +47,6 @@ void set_motion(const TimedState& a, const TimedState& b, hal::TimePoint moment,
 
 }  // namespace
 
-void set_unknown(MachineQuality quality, MachineStatus& machine) {
-  machine.quality = quality;
-  machine.part = {};
-  machine.values = {};
-  machine.vx = machine.vy = machine.vz = signals::kNotValid;
-  machine.tool_x = machine.tool_y = machine.tool_z = signals::kNotValid;
-}
-
 void StateTrack::add(const TimedState& state) {
   while (size_ > 0 && at(size_ - 1).moment >= state.moment) --size_;
   if (size_ == kCapacity) {
@@ -95,19 +87,19 @@ bool StateTrack::is_silent(hal::TimePoint now) const {
 void StateTrack::report(hal::TimePoint moment, MachineStatus& machine) const {
   const std::size_t count = count_until(moment);
   machine.state = count > 0 ? at(count - 1).moment : hal::TimePoint{};
-  if (count == 0) return set_unknown(MachineQuality::NoState, machine);
+  if (count == 0) return machine.forget(MachineQuality::NoState);
   const TimedState& before = at(count - 1);
   const bool has_after = count < size_;
   const bool is_stale =
       has_after ? at(count).moment - before.moment > timeout_ : moment - before.moment > silence_;
-  if (is_stale) return set_unknown(MachineQuality::Stale, machine);
+  if (is_stale) return machine.forget(MachineQuality::Stale);
   machine.quality = has_after ? MachineQuality::Good : MachineQuality::Predicted;
   machine.part = before.part;
   if (has_after) return set_motion(before, at(count), moment, machine);
   const bool has_velocity = count > 1 && before.moment - at(count - 2).moment <= timeout_;
   if (has_velocity) return set_motion(at(count - 2), before, moment, machine);
   // A single state says nothing about motion.
-  set_unknown(MachineQuality::Predicted, machine);
+  machine.forget(MachineQuality::Predicted);
   machine.part = before.part;
   for (const MachineValue& value : kMachineValues) {
     if (value.between == Between::Held) machine.values.*value.get = before.values.*value.get;

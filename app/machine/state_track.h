@@ -57,7 +57,4 @@ class StateTrack {
   std::size_t size_ = 0;
 };
 
-/// Sets what a silent machine says: nothing. Reentrant.
-void set_unknown(MachineQuality quality, MachineStatus& machine);
-
 }  // namespace orbwatch::app::machine

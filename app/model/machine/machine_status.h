@@ -69,6 +69,14 @@ struct MachineStatus {
   PartName part;
   MachineValues values;
   ORBWATCH_MACHINE_MOTION(ORBWATCH_FIELD_MEMBER)
+
+  /// Sets part, values and motion to not known, for this reason; age and counts stay.
+  void forget(MachineQuality reason) {
+    quality = reason;
+    part = {};
+    values = {};
+    vx = vy = vz = tool_x = tool_y = tool_z = signals::kNotValid;
+  }
 };
 
 /// Reads one value of a status.

@@ -24,6 +24,14 @@ std::string quoted(const std::vector<std::string>& texts) {
   return "[" + list + "]";
 }
 
+/// Makes a silent pipeline's last status a fault, in which nothing measured or reported is valid.
+void forget_live(Status& status) {
+  status.state = SystemState::Fault;
+  status.regions = {};
+  if (status.machine.quality == MachineQuality::NotConfigured) return;
+  status.machine.forget(MachineQuality::Stale);
+}
+
 }  // namespace
 
 ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler,
@@ -222,10 +230,7 @@ modbus::ProcessImage ModbusSink::process_image() const {
     image.last_acknowledged = results_.last_acknowledged();
     image.stale = image.now - received_at_ > settings_.status_timeout;
   }
-  if (image.stale) {
-    image.live.status.state = SystemState::Fault;
-    image.live.status.regions = {};
-  }
+  if (image.stale) forget_live(image.live.status);
   return image;
 }
 

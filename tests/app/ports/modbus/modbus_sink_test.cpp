@@ -137,6 +137,12 @@ TEST(ModbusSink, TheUtcStampOfAFrameSetIsTrueAndStays) {
   }
 }
 
+/// True once bit `stale` is set.
+bool is_stale(Plc& plc) {
+  return eventually(
+      [&] { return plc.read_discrete(tests::bit_of("stale"), 1) == 0 && plc.bits[0] == 1; });
+}
+
 TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
   ModbusSettings settings = loopback();
   settings.status_timeout = std::chrono::milliseconds(1);
@@ -144,17 +150,21 @@ TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
   ASSERT_TRUE(sink.start());
   Status status = tests::example_status();
   status.state = SystemState::Running;
+  status.machine.quality = MachineQuality::Good;
+  status.machine.part = PartName::make("bracket").value();
+  status.machine.values.x = 12.5;
+  status.machine.vx = 3;
+  status.machine.states = 40;
   sink.accept(status);
   Plc plc(sink.port());
-  ASSERT_TRUE(eventually(
-      [&] { return plc.read_discrete(tests::bit_of("stale"), 1) == 0 && plc.bits[0] == 1; }));
+  ASSERT_TRUE(is_stale(plc));
   ASSERT_EQ(plc.read_input(0, 124), 0);
   const auto place = [](const char* name) { return static_cast<std::size_t>(address_of(name)); };
   EXPECT_EQ(plc.words[place("system_state")], 3);
   // Fault, stale, process active, result available.
   EXPECT_EQ(plc.u32(place("status_bits")), 0b1011'0100U);
   EXPECT_EQ(plc.u32(place("measurement_bits")), 0U);           // the cameras' state is unknown
-  EXPECT_EQ(plc.u32(place("fault_bits")) & 1, 1U);             // pipeline silent
+  EXPECT_EQ(plc.u32(place("fault_bits")) & 0x101U, 0x101U);    // pipeline silent, machine unknown
   EXPECT_EQ(plc.u32(place("system_frame_set")), 0x80010203U);  // still the newest one
   ASSERT_EQ(plc.read_input(address_of("region_0_result"), 124), 0);
   const auto in_region = [](const std::string& name) {
@@ -168,6 +178,35 @@ TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
   EXPECT_EQ(plc.u32(0), 0x0013'0016U);
   EXPECT_EQ(plc.words[in_region("quality")], 1);
   EXPECT_EQ(plc.i32(in_region("hot_spot_yaw")), -12346);
+  const auto in_machine = [](const std::string& name) {
+    return place_of("machine_" + name, "machine_quality");
+  };
+  const int count = static_cast<int>(in_machine("slips")) + 2;
+  ASSERT_EQ(plc.read_input(address_of("machine_quality"), count), 0);
+  EXPECT_EQ(plc.words[in_machine("quality")], 4);
+  EXPECT_EQ(plc.words[in_machine("part_0")], 0);
+  EXPECT_EQ(plc.u32(in_machine("x")), 0x80000000U);
+  EXPECT_EQ(plc.u32(in_machine("vx")), 0x80000000U);
+  EXPECT_EQ(plc.u32(in_machine("states")), 40U) << "a count";
+  ASSERT_EQ(plc.read_input(address_of("result_machine_quality"), count), 0);
+  EXPECT_EQ(plc.words[in_machine("quality")], 1);
+  EXPECT_EQ(plc.words[in_machine("part_0")], 'b' << 8 | 'r');
+  EXPECT_EQ(plc.i32(in_machine("x")), 12500);
+  EXPECT_EQ(plc.i32(in_machine("vx")), 300);
+}
+
+TEST(ModbusSink, ASilentPipelineHasNoMachineThatIsNotConfigured) {
+  ModbusSettings settings = loopback();
+  settings.status_timeout = std::chrono::milliseconds(1);
+  ModbusSink sink(settings, accept_all);
+  ASSERT_TRUE(sink.start());
+  sink.accept(tests::example_status());
+  Plc plc(sink.port());
+  ASSERT_TRUE(is_stale(plc));
+  ASSERT_EQ(plc.read_input(address_of("machine_quality"), 1), 0);
+  EXPECT_EQ(plc.words[0], 0);
+  ASSERT_EQ(plc.read_input(address_of("fault_bits"), 2), 0);
+  EXPECT_EQ(plc.u32(0) & 0x100U, 0U);
 }
 
 /// A code in the signal's range, computed from the number of the frame set.
