@@ -9,7 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "app/machine/state_track.h"
 #include "app/model/machine/machine_state.h"
 #include "app/ports/recorder/recorded_states.h"
 #include "hal/recording/camera_recording.h"
