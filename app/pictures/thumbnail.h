@@ -16,7 +16,7 @@ class Thumbnail {
 
   /// Scales a picture to Rgb, or Grey for luminance, each pixel the mean of the pixels that it
   /// covers, neither side above kLongestSide; valid until the next call. A picture that is small
-  /// enough keeps its size.
+  /// enough keeps its size. `picture` must not be empty.
   Picture of(const Picture& picture);
 
  private:

@@ -273,12 +273,16 @@ void DdsSink::accept(const ViewPtr& view) {
   ViewTopics& topics = *views_[view->index];
   const StampedPicture picture{view, view->picture, utc(view->stamp), &topics.name()};
   const bool is_selected = view->index == selected_view_;
-  topics.accept(view, picture, is_selected ? &selected_ : nullptr);
-  if (!is_selected) return;
-  fleet_.accept(picture);
-  if (view->spec.kind == optics::ViewKind::Perspective) {
-    selected_info_.accept({view->spec, picture.stamp, &topics.name()});
+  bool has_info = topics.accept(view, picture, is_selected ? &selected_ : nullptr);
+  if (is_selected) {
+    fleet_.accept(picture);
+    if (view->spec.kind == optics::ViewKind::Perspective &&
+        selected_info_.accept({view->spec, picture.stamp, &topics.name()})) {
+      has_info = true;
+    }
   }
+  // Before the next status this view may come again and replace its info.
+  if (has_info) thread_.wake();
 }
 
 void DdsSink::accept(const Status& status) {

@@ -77,9 +77,10 @@ void FleetMember::publish(const StatusReport& report) {
   if (!read) log_line(LogLevel::Warning, read.error().message);
 }
 
-PictureNeeds FleetMember::needs(const TimeMessage& stamp) const {
+PictureNeeds FleetMember::needs(const TimeMessage& stamp) {
+  asked_ = thumbnails_.wants(stamp);
   PictureNeeds needs;
-  needs.jpeg = thumbnails_.wants(stamp);
+  needs.jpeg = asked_;
   return needs;
 }
 

@@ -15,7 +15,7 @@ namespace orbwatch::app::dds {
 /// Membership of the appliance in its domain's fleet: announces itself once a second, publishes a
 /// thumbnail every few seconds while it has viewers, and receives the announcements of the others.
 /// Without permission, as with keys of earlier versions, it does nothing and logs so.
-/// Thread rule: wants and accept by the pipeline's thread; topics and writers' statistics by any;
+/// Thread rule: needs and accept by the pipeline's thread; topics and writers' statistics by any;
 /// the rest by one owner.
 class FleetMember {
  public:
@@ -31,9 +31,10 @@ class FleetMember {
   /// Announces the appliance; to be called with every status.
   void publish(const StatusReport& report);
 
-  PictureNeeds needs(const TimeMessage& stamp) const;
-  /// Accepts a picture that serves the result of needs().
-  void accept(const StampedPicture& picture) { thumbnails_.accept(picture); }
+  /// The forms in which readers need the picture of this moment; for the next accept().
+  PictureNeeds needs(const TimeMessage& stamp);
+  /// Accepts a picture that serves the result of needs(): without needs it may be empty.
+  void accept(const StampedPicture& picture) { thumbnails_.accept(picture, asked_); }
 
   /// The open writers.
   std::vector<const TopicWriter*> writers() const;
@@ -50,6 +51,7 @@ class FleetMember {
   const Entity* participant_ = nullptr;  ///< set from open() to close()
   TopicWriter notices_;
   PictureTopic thumbnails_;
+  bool asked_ = false;  ///< set by needs(); used by the pipeline's thread only
   bool is_open_ = false;
   hal::TimePoint next_;
 };

@@ -113,7 +113,8 @@ float64 laser_on  # 0 or 1
 float64 program_running  # 0 or 1
 float64 trigger_count  # camera triggers sent so far; 0: not counted
 )msg"},
-    MessageSchema{"orbwatch_msgs/msg/ProcessState", R"msg(# Measurements and condition of orbwatch, one sample per frame set.
+    MessageSchema{"orbwatch_msgs/msg/ProcessState", R"msg(# Measurements and condition of orbwatch, at least ten samples a second. Further samples of a frame set repeat its
+# measurements, with the present condition. Frame sets may be left out, except those in which result changes.
 
 std_msgs/Header header  # stamp: same as in the images of the frame set, 0: none yet
 uint64 frame_set  # number of the newest frame set; 0: none yet

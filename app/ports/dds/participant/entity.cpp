@@ -12,6 +12,12 @@ Result<Entity> checked(std::string_view what, dds_entity_t handle) {
   return Entity(handle);
 }
 
+/// The history for late joiners has its own depth, 1 by default.
+void keep_for_late_joiners(const Qos& qos, std::int32_t depth) {
+  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
+                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+}
+
 Qos newest_reliably(dds_durability_kind_t durability, std::int32_t depth = 1) {
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE,
@@ -42,11 +48,15 @@ Qos frame_qos() { return newest_reliably(DDS_DURABILITY_VOLATILE); }
 
 Qos state_qos() { return newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL); }
 
+Qos process_state_qos() {
+  Qos qos = newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL, kStateDepth);
+  keep_for_late_joiners(qos, 1);
+  return qos;
+}
+
 Qos event_qos() {
   Qos qos = newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL, kEventDepth);
-  // The history for late joiners has its own depth, 1 by default.
-  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kEventDepth,
-                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  keep_for_late_joiners(qos, kEventDepth);
   return qos;
 }
 

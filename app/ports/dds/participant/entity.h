@@ -54,8 +54,15 @@ using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
 /// QoS of pictures: reliable, keep last 1, volatile; a write waits for slow readers at most
 /// `kMaxBlockingTime`.
 Qos frame_qos();
-/// QoS of the process state: as for pictures, but a late joiner gets the newest state.
+/// QoS of states and of the process state's readers: as for pictures, but a late joiner gets the
+/// newest state.
 Qos state_qos();
+/// QoS of the process state's writer: as state_qos(), but the last kStateDepth states are sent
+/// again to a reader that lost them. With a depth of 1 the next state would replace a lost result.
+Qos process_state_qos();
+/// Exceeds the results that StatusQueue publishes at once, with room for the states that follow
+/// until a reader has reported the loss.
+inline constexpr std::int32_t kStateDepth = 16;
 /// QoS of events: reliable; a late joiner gets the last kEventDepth.
 Qos event_qos();
 inline constexpr std::int32_t kEventDepth = 64;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ports/dds/participant/participant.h"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
 #include <map>
 #include <mutex>
@@ -25,6 +27,16 @@ const std::string kDefaults =
     std::to_string(kMaxSampleBytes) +
     "B</MaxSampleSize><SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>"
     "</Internal></Domain></CycloneDDS>";
+
+/// Overrides a profile that enables shared memory: Cyclone DDS 0.10 puts samples there unencrypted,
+/// also those of a secure participant.
+constexpr const char* kNoSharedMemory =
+    "<CycloneDDS><Domain><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>";
+
+/// Returns whether Cyclone DDS was built with shared memory. Without it kNoSharedMemory and such
+/// profiles are errors. The library has no call that returns this, but exports its functions for
+/// shared memory.
+bool has_shared_memory() { return ::dlsym(RTLD_DEFAULT, "shm_create_chunk") != nullptr; }
 
 struct OwnDomain {
   Entity entity;
@@ -56,11 +68,16 @@ class DomainUse {
   const std::set<std::string> addresses_;
 };
 
-std::string configuration(const std::filesystem::path& profile) {
-  // Later elements override earlier ones.
-  if (!profile.empty()) return kDefaults + ",file://" + profile.string();
-  const char* uri = std::getenv("CYCLONEDDS_URI");
-  return uri == nullptr ? kDefaults : kDefaults + "," + uri;
+/// Later elements override earlier ones.
+std::string configuration(const std::filesystem::path& profile, bool is_secure) {
+  std::string all = kDefaults;
+  if (!profile.empty()) {
+    all += ",file://" + profile.string();
+  } else if (const char* uri = std::getenv("CYCLONEDDS_URI")) {
+    all += std::string(",") + uri;
+  }
+  if (is_secure && has_shared_memory()) all += std::string(",") + kNoSharedMemory;
+  return all;
 }
 
 Error cannot_join(int domain, dds_return_t code) {
@@ -77,12 +94,13 @@ Error refused_by_plugins(int domain, const SecuritySettings& security) {
 
 /// Creates the domain unless it exists; empty: other code of the process created it.
 Result<std::shared_ptr<const DomainUse>> use_domain(int number,
-                                                    const std::filesystem::path& profile) {
+                                                    const std::filesystem::path& profile,
+                                                    bool is_secure) {
   const std::lock_guard lock(domains_mutex);
   if (!domains.contains(number)) {
     const auto earlier = open_sockets();
-    const auto handle =
-        dds_create_domain(static_cast<dds_domainid_t>(number), configuration(profile).c_str());
+    const auto handle = dds_create_domain(static_cast<dds_domainid_t>(number),
+                                          configuration(profile, is_secure).c_str());
     if (handle == DDS_RETCODE_PRECONDITION_NOT_MET) return nullptr;
     if (handle < 0) return tl::unexpected(cannot_join(number, handle));
     domains[number].entity = Entity(handle);
@@ -118,7 +136,7 @@ Result<Participant> Participant::join(int domain, const std::optional<SecuritySe
   auto qos = security ? security_qos(*security, domain) : Qos(dds_create_qos());
   if (!qos) return tl::unexpected(qos.error());
   if (!user_data.empty()) dds_qset_userdata(qos->get(), user_data.data(), user_data.size());
-  auto used = use_domain(domain, profile);
+  auto used = use_domain(domain, profile, security.has_value());
   if (!used) return tl::unexpected(used.error());
   Participant participant;
   participant.addresses_ = *used ? (*used)->addresses() : bound_addresses();

@@ -42,10 +42,11 @@ class Participant {
   /// Joins a domain with the settings of the file `profile`, or of CYCLONEDDS_URI without one; by
   /// default with receive buffers that hold pictures. The first participant of the process in a
   /// domain determines the settings of all. With `security` it communicates with authenticated
-  /// participants only; a process must not have a second secure participant in a domain: it would
-  /// get the rights of the first, and Cyclone DDS 0.10 leaks memory with both. `user_data` is
-  /// announced to others. Errors: those of check_domain() and security_qos(); no usable network
-  /// interface; an invalid CYCLONEDDS_URI or profile; a missing file.
+  /// participants only, and never by shared memory, which is not encrypted; a process must not have
+  /// a second secure participant in a domain: it would get the rights of the first, and Cyclone DDS
+  /// 0.10 leaks memory with both. `user_data` is announced to others. Errors: those of
+  /// check_domain() and security_qos(); no usable network interface; an invalid CYCLONEDDS_URI or
+  /// profile; a missing file.
   static Result<Participant> join(int domain,
                                   const std::optional<SecuritySettings>& security = std::nullopt,
                                   std::string_view user_data = {},

@@ -19,12 +19,14 @@ void InfoTopic::close() {
   newest_.discard();
 }
 
-void InfoTopic::accept(const StampedCalibration& picture) {
-  if (topic_.has_reader()) {
+bool InfoTopic::accept(const StampedCalibration& picture) {
+  const bool is_read = topic_.has_reader();
+  if (is_read) {
     newest_.put(picture);
   } else {
     topic_.count_unread();
   }
+  return is_read;
 }
 
 void InfoTopic::publish() {

@@ -32,8 +32,8 @@ class InfoTopic {
   Result<> open(const Entity& participant);
   void close();
 
-  /// Queues the calibration of a picture if it has a reader; returns at once.
-  void accept(const StampedCalibration& picture);
+  /// Queues the calibration of a picture if it has a reader; returns at once, true if it did.
+  bool accept(const StampedCalibration& picture);
   /// Writes the newest calibration, if there is one.
   void publish();
 

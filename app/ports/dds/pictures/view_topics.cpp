@@ -35,18 +35,19 @@ void ViewTopics::close() {
   if (measured_info_) measured_info_->close();
 }
 
-void ViewTopics::accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same) {
+bool ViewTopics::accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same) {
   picture_.accept(picture, same);
   const StampedCalibration calibration{view->spec, picture.stamp, &name_};
-  if (info_) info_->accept(calibration);
+  bool has_info = info_ && info_->accept(calibration);
   const bool narrow = view->radiometric.empty();
   if (measured_ && !(narrow && view->luminance.empty())) {
     measured_->accept({view,
                        narrow ? picture_of(PixelFormat::Grey, view->luminance)
                               : picture_of(PixelFormat::Y16, view->radiometric),
                        picture.stamp, &name_});
-    if (measured_info_) measured_info_->accept(calibration);
+    if (measured_info_ && measured_info_->accept(calibration)) has_info = true;
   }
+  return has_info;
 }
 
 void ViewTopics::publish_info() {

@@ -27,8 +27,8 @@ class ViewTopics {
   /// The forms in which readers need the next display picture.
   PictureNeeds ask(const TimeMessage& stamp) { return picture_.ask(stamp); }
   /// Queues pictures for topics with readers; returns at once. `picture` is the view's display
-  /// picture; `same`: see PictureTopics.
-  void accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same);
+  /// picture; `same`: see PictureTopics. Returns whether a calibration waits for publish_info().
+  bool accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same);
   /// Writes the calibrations of the newest pictures, if they have readers.
   void publish_info();
 

@@ -18,6 +18,7 @@ namespace orbwatch::app::dds {
 class StatusQueue {
  public:
   static constexpr std::size_t kMaxResults = 8;
+  static_assert(kMaxResults < kStateDepth);  // the writer keeps the results of one take()
 
   void put(const StampedStatus& stamped) {
     const bool is_result = stamped.status.result != 0 && stamped.status.result != newest_result_;

@@ -21,7 +21,7 @@ StatusTopics::StatusTopics(const std::string& prefix, StatusNames names)
       diagnostics_composer_(hal::host_name()) {}
 
 Result<> StatusTopics::open(const Entity& participant) {
-  return state_.open(participant, state_qos())
+  return state_.open(participant, process_state_qos())
       .and_then([&] { return events_.open(participant, event_qos()); })
       .and_then([&] { return diagnostics_.open(participant, frame_qos()); });
 }

@@ -83,6 +83,28 @@ TEST(CameraInfoTopics, EachImageTopicOfAPerspectiveViewHasItsCameraInfoBesideIt)
   }
 }
 
+TEST(CameraInfoTopics, TheCameraInfoOfAViewIsWrittenWithoutAStatus) {
+  const tests::DdsNetwork network;
+  ASSERT_TRUE(network.valid());
+  DdsSink sink(settings(), tests::make_names(), nullptr);
+  ASSERT_TRUE(sink.start());
+  InfoBeside front(image_topic("orbwatch", "front"));
+  const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
+  view->spec = {optics::ViewKind::Perspective, {}, 90, {}, kWidth, kHeight};
+  ASSERT_TRUE(eventually([&] {  // the first views are passed before the reader matches
+    tests::hand_over(sink, view);
+    front.take();
+    return !front.info_stamps.empty();
+  }));
+  const auto before = front.info_stamps.back();
+  view->stamp += std::chrono::seconds(1);
+  tests::hand_over(sink, view);
+  EXPECT_TRUE(eventually([&] {
+    front.take();
+    return front.info_stamps.back() > before;
+  })) << "of a view passed once";
+}
+
 TEST(CameraInfoTopics, ACameraWithAKnownLensHasItsCameraInfoBesideItsPicture) {
   const tests::DdsNetwork network;
   ASSERT_TRUE(network.valid());

@@ -173,6 +173,18 @@ TEST_F(FleetOnTheWire, ThumbnailsAreMadeOnlyForThoseWhoLook) {
   EXPECT_EQ(there.fleet->picture(id), nullptr) << "nobody looked there";
 }
 
+TEST_F(FleetOnTheWire, AViewRenderedBeforeThumbnailsHadAReaderIsCountedAsUnread) {
+  const std::string topic(kThumbnailTopic);
+  const auto view = tests::make_view(kFront, "front", 1, 320, 200);
+  view->picture = {};
+  EXPECT_FALSE(here_.sink.needs(kFront, view->stamp).jpeg);
+  const tests::TopicReader<ThumbnailMessage> reader(orbwatch_msgs_msg_dds__Thumbnail__desc, topic,
+                                                    frame_qos());
+  ASSERT_TRUE(eventually([&] { return of_topic(here_.sink, topic).readers > 0; }));
+  here_.sink.accept(view);
+  EXPECT_EQ(of_topic(here_.sink, topic).unread, 1U);
+}
+
 TEST_F(FleetOnTheWire, WhatIsTooLongOrWrongIsDropped) {
   const dds_topic_descriptor_t type = loose_type();
   const ForeignWriter stranger(DdsNetwork::kReaderDomain, type, std::string(kApplianceTopic),

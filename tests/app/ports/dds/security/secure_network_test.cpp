@@ -359,6 +359,22 @@ TEST(SecureParticipant, JoinsAgainAfterItLeft) {
   }
 }
 
+TEST(SecureParticipant, UsesNoSharedMemoryAlthoughItsProfileEnablesIt) {
+  const orbwatch::tests::TemporaryFolder folder;
+  const auto keystore = make_keystore(keystore_request(folder / "keys"));
+  const auto profile = folder / "profile.xml", settings = folder / "settings.log";
+  tests::write_text(profile,
+                    DdsNetwork::configuration(
+                        "<SharedMemory><Enable>true</Enable></SharedMemory><Tracing><Category>"
+                        "config</Category><OutputFile>" +
+                        settings.string() + "</OutputFile></Tracing>"));
+  const auto participant =
+      Participant::join(DdsNetwork::kSinkDomain, keys_of(keystore, "appliance"), {}, profile);
+  ASSERT_TRUE(participant) << participant.error().message;
+  EXPECT_THAT(tests::text_of_file(settings), HasSubstr("SharedMemory/Enable/#text: false"))
+      << "as Cyclone DDS lists its settings";
+}
+
 /// Data on the wire while a sink publishes a view to a reader.
 std::string wire_text(const std::optional<SecuritySettings>& appliance,
                       const std::optional<SecuritySettings>& subscriber, const fs::path& capture) {
