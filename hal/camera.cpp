@@ -121,7 +121,11 @@ void Camera::discard(FrameMetadata metadata, std::string detail, Fault fault) {
   metadata.status = FrameStatus::Withheld;
   metadata.exposure_start = exposure_start(metadata, stamps_);
   passes_gate(metadata);
-  if (damage_.add_damaged(metadata.exposure_start)) announce(fault, std::move(detail));
+  // Frames that are damaged in another way do not change the fault, which would flap.
+  const bool was_fault = damage_.is_fault();
+  if (damage_.add_damaged(metadata.exposure_start) && !was_fault) {
+    announce(fault, std::move(detail));
+  }
 }
 
 bool Camera::passes_gate(FrameMetadata& metadata) {

@@ -55,6 +55,9 @@ struct StreamRequest {
   std::size_t buffers = kFreeRunningBuffers;
   /// A camera that sends JPEG keeps the data of each frame beside its pixels: FrameBuffer::jpeg.
   bool keeps_jpeg = false;
+  /// Only frames of triggers are used. A V4L2 camera that was left waiting for triggers keeps doing
+  /// so; without triggers it is set to run freely.
+  bool is_triggered = false;
 };
 
 /// Scale that a camera states for its counts; a count of 0 is 0 K.
@@ -183,7 +186,7 @@ class Camera {
   /// withheld, and the fault lasts.
   void deliver(std::shared_ptr<FrameBuffer> frame);
   /// For run(): counts a damaged frame whose number and stamp at least are known. `detail` is the
-  /// text of `fault`, which many damaged frames raise.
+  /// text of `fault`, which many damaged frames raise; the one that raises it determines both.
   void discard(FrameMetadata metadata, std::string detail, Fault fault = Fault::CorruptFrame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});

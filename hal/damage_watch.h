@@ -34,6 +34,8 @@ class DamageWatch {
     return is_fault_;
   }
 
+  bool is_fault() const { return is_fault_; }
+
   /// Forgets all frames, and the fault.
   void clear() { *this = {}; }
 

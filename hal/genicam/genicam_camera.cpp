@@ -196,31 +196,32 @@ DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
   const bool silence_is_normal =
       may_be_silent();  // before the wait, during which buffers may return
   const auto captured = stream_->next(deadline);
-  if (!captured) {
-    is_lost_ = true;
-    return tl::unexpected(captured.error());
-  }
+  if (!captured) return lose(captured.error());
   if (*captured) {
     read_clock();
     forward_intact(**captured);
     log_clock_fit();
   }
   count_link();
-  if (!*captured && Clock::now() >= deadline && !silence_is_normal) return silence();
+  if (!*captured && Clock::now() >= deadline && !silence_is_normal) return lose(silence());
   return *captured ? 1 : 0;
 }
 
-/// Fault when no frame came in time. Reported before the stream is closed, which takes seconds when
-/// the camera does not answer.
-tl::unexpected<FaultReport> GenicamCamera::silence() {
-  is_lost_ = true;
+/// Fault when no frame came in time.
+FaultReport GenicamCamera::silence() {
   const std::string who = "genicam: camera " + found_.id;
-  FaultReport fault{Fault::Stalled, who + ": sends no frames, but answers"};
   if (found_.is_gige() && !read_gige_identity(found_.address)) {
     stream_->give_up();
-    fault = {Fault::Unplugged, who + ": does not answer any more"};
-    keep_controls();
+    return {Fault::Unplugged, who + ": does not answer any more"};
   }
+  return {Fault::Stalled, who + ": sends no frames, but answers"};
+}
+
+/// Ends the stream by a fault. Reports it before the stream is closed, which takes seconds when the
+/// camera does not answer.
+tl::unexpected<FaultReport> GenicamCamera::lose(FaultReport fault) {
+  is_lost_ = true;
+  if (fault.fault == Fault::Unplugged) keep_controls();
   report(fault.fault, fault.detail);
   return tl::unexpected(std::move(fault));
 }
@@ -260,8 +261,14 @@ FrameMetadata GenicamCamera::metadata_of(const GenicamStream::Captured& captured
   metadata.sequence = sequence_of(blocks_.number(captured.id));
   metadata.exposure_time = exposure_time_;
   metadata.exposure_start = captured.arrival;
+  if (!captured.id) {
+    // Packets are sent from the start of the readout on. The stamp of the next frame may be
+    // earlier, and keeps its value.
+    metadata.stamp_source = StampSource::ReadoutStart;
+    return metadata;
+  }
   metadata.stamp_source = StampSource::Arrival;
-  if (captured.id && captured.stamp.count() != 0) {
+  if (captured.stamp.count() != 0) {
     if (!latch_) clock_.add_arrival(captured.stamp, captured.arrival);
     if (const auto moment = clock_.to_steady(captured.stamp)) {
       metadata.exposure_start = std::min(*moment, captured.arrival);

@@ -61,7 +61,8 @@ class GenicamCamera : public DeviceCamera {
   DeviceResult<> set_up_again();
   Result<> set_now(const std::string& control, double value);
   void read_features();
-  tl::unexpected<FaultReport> silence();
+  FaultReport silence();
+  tl::unexpected<FaultReport> lose(FaultReport fault);
   void read_clock();
   void log_clock_fit();
   void count_link();

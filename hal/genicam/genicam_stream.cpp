@@ -99,9 +99,11 @@ void GenicamStream::queue(std::size_t index) {
   ++queued_;
 }
 
-void GenicamStream::on_stream_event(void* events, ArvStreamCallbackType type, ArvBuffer*) {
+void GenicamStream::on_stream_event(void* share, ArvStreamCallbackType type, ArvBuffer*) {
+  Events& events = *static_cast<Events*>(share);
   if (type == ARV_STREAM_CALLBACK_TYPE_INIT) schedule_this_thread(ThreadRole::Capture);
-  if (type == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE) static_cast<Events*>(events)->returned.wake();
+  if (type == ARV_STREAM_CALLBACK_TYPE_START_BUFFER) events.begun.put(Clock::now());
+  if (type == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE) events.returned.wake();
 }
 
 void GenicamStream::on_control_lost(ArvDevice*, void* share) {
@@ -133,11 +135,16 @@ std::optional<GenicamStream::Captured> GenicamStream::take() {
   const auto* const of = static_cast<const GenicamFrame*>(arv_buffer_get_user_data(buffer.get()));
   const auto index = static_cast<std::size_t>(std::ranges::find(frames_, of) - frames_.begin());
   const std::uint64_t id = arv_buffer_get_frame_id(buffer.get());
+  const TimePoint now = Clock::now();
+  // Aravis closes frames of GigE Vision in the order in which they begin. It announces those of
+  // USB3 Vision early, or not at all.
+  const auto begun = ARV_IS_GV_STREAM(stream_.get()) ? events_->begun.try_take() : std::nullopt;
   return Captured{
       pool_->acquire(index), arv_buffer_get_status(buffer.get()),
       id == kNoId ? std::nullopt : std::optional(id),
       std::chrono::nanoseconds(static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer.get()))),
-      arrival_of(arv_buffer_get_system_timestamp(buffer.get()), Clock::now())};
+      id == kNoId ? begun.value_or(now)
+                  : arrival_of(arv_buffer_get_system_timestamp(buffer.get()), now)};
 }
 
 LinkCounts GenicamStream::link_counts() const {

@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "hal/fault.h"
+#include "hal/frame/buffer_count.h"
 #include "hal/frame/buffer_pool.h"
 #include "hal/frame/frame.h"
 #include "hal/frame/returned_buffers.h"
 #include "hal/genicam/device/aravis.h"
 #include "hal/genicam/format/negotiation.h"
+#include "hal/thread/bounded_queue.h"
 
 namespace orbwatch::hal {
 
@@ -36,7 +38,7 @@ class GenicamStream {
     ArvBufferStatus status;
     std::optional<std::uint64_t> id;  ///< nullopt: its first packet was lost, and its stamp with it
     std::chrono::nanoseconds stamp;   ///< time by the camera's clock
-    TimePoint arrival;                ///< arrival of its first packet; now, if that packet was lost
+    TimePoint arrival;  ///< arrival of the first of its packets that came; now, if unknown
   };
 
   /// Makes `buffers` and starts the camera, whose format is already negotiated.
@@ -67,6 +69,9 @@ class GenicamStream {
   /// Events from Aravis' threads; outlives the stream for as long as frames are held.
   struct Events {
     ReturnedBuffers returned;
+    /// GigE Vision: moments at which Aravis received a first packet of the frames that take() has
+    /// not returned yet.
+    BoundedQueue<TimePoint, kMaxBuffers> begun;
     std::atomic<bool> control_lost = false;
   };
 

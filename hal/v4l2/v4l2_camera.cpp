@@ -32,6 +32,7 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   if (auto sound = check(); !sound) return tl::unexpected(sound.error());
   auto device = open();
   if (!device) return fail(device.error().detail);
+  uses_triggers_ = request.is_triggered;
   if (auto ready = set_up(*device, settings_.pixel_format, request); !ready)
     return fail(ready.error().detail);
   decoder_.reset();
@@ -65,13 +66,23 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
                                 settings_.first_row, settings_.is_radiometric});
   if (!negotiated) return tl::unexpected(negotiated.error());
   const std::lock_guard lock(controls_mutex_);
-  for (const auto& [control, value] : controls_) {
-    if (auto done = set_control(device, control, value); !done) {
-      return fail(Fault::ReadError, done.error().message);
-    }
+  if (auto done = set_controls(device); !done) {
+    return fail(Fault::ReadError, done.error().message);
   }
   read_controls(device);
   negotiated_ = *negotiated;
+  return {};
+}
+
+/// Sets the stored controls. Without triggers a device that an earlier configuration left waiting
+/// for them runs freely again, unless a stored control is TriggerMode.
+Result<> V4l2Camera::set_controls(V4l2Device& device) const {
+  if (!uses_triggers_ && waits_for_trigger(device)) {
+    if (auto done = set_control(device, "TriggerMode", 0); !done) return done;
+  }
+  for (const auto& [control, value] : controls_) {
+    if (auto done = set_control(device, control, value); !done) return done;
+  }
   return {};
 }
 

@@ -23,7 +23,8 @@ namespace orbwatch::hal {
 /// imports, in the driver's own if it does not import, or decoded if the pipeline does not read
 /// their format. Frames that are short, damaged according to the driver, or whose JPEG picture is
 /// damaged are withheld and counted. The device is open only while the camera runs or a call needs
-/// it; silence while it waits for a trigger is not a fault.
+/// it. Without triggers it runs freely unless its stored control TriggerMode is on; silence while
+/// it waits for a trigger is not a fault.
 class V4l2Camera : public DeviceCamera {
  public:
   explicit V4l2Camera(
@@ -64,6 +65,7 @@ class V4l2Camera : public DeviceCamera {
   DeviceResult<> set_up(V4l2Device& device, std::string_view pixel_format,
                         const StreamRequest& request);
   DeviceResult<> set_up_again(V4l2Device& device);
+  Result<> set_controls(V4l2Device& device) const;
   void read_controls(const V4l2Device& device);
   void forward_intact(const V4l2Stream::Captured& captured);
   Result<std::shared_ptr<FrameBuffer>> intact_frame(const V4l2Stream::Captured& captured);
@@ -72,6 +74,7 @@ class V4l2Camera : public DeviceCamera {
   DmaBufferSources sources_;
   NegotiatedFormat negotiated_;
   std::size_t buffers_ = kFreeRunningBuffers;  ///< number of the driver's buffers
+  bool uses_triggers_ = false;                 ///< StreamRequest::is_triggered
   std::unique_ptr<FrameDecoder> decoder_;      ///< decoder for formats that are not zero-copy
   std::unique_ptr<V4l2Stream> stream_;         ///< stream while it is open
   std::atomic<bool> triggered_ = false;        ///< the camera waits for triggers

@@ -245,6 +245,14 @@ TEST(Camera, WithoutTimeStampsIsAFaultWhereTheyAreNeeded) {
   EXPECT_EQ(hiccup.quality().damaged, 2U);
 }
 
+TEST(Camera, DamageOfTwoKindsIsOneFaultWithTheCauseThatRaisedIt) {
+  PlayingCamera camera("aaaaadadad.__.");
+  camera.require_stamps();
+  camera.play();
+  EXPECT_EQ(camera.faults, (std::vector{Fault::NoTimeStamps, Fault::None}));
+  EXPECT_EQ(camera.quality().damaged, 10U);
+}
+
 TEST(Camera, StampsBecomeExposureStartsBeforeTheGateSeesThem) {
   PlayingCamera camera(".d.");
   camera.set_stamps({.readout_time = {}, .offset = std::chrono::milliseconds(3)});

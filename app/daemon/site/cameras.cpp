@@ -49,6 +49,7 @@ hal::StreamRequest stream_of(const files::Resolved& site, std::size_t camera) {
     if (stream.height == 0) stream.height = rig.height;
   }
   const bool triggered = settings.trigger.mode != hal::TriggerMode::Off;
+  stream.is_triggered = triggered;
   stream.buffers = triggered ? hal::kTriggeredBuffers : hal::kFreeRunningBuffers;
   return stream;
 }

@@ -100,11 +100,12 @@ class Negotiation {
     arv_camera_set_acquisition_mode(camera_, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
     if (auto set = done("AcquisitionMode", error); !set) return set;
     // Cameras with a fixed rate have no such feature.
-    if (!arv_camera_is_frame_rate_available(camera_, nullptr)) return {};
-    if (frame_rate > 0) {
-      arv_camera_set_frame_rate(camera_, frame_rate, error.out());
+    const bool has_rate = arv_camera_is_frame_rate_available(camera_, nullptr);
+    if (has_rate && frame_rate > 0) {
+      arv_camera_set_frame_rate(camera_, frame_rate, error.out());  // clears the triggers as well
       return done("AcquisitionFrameRate", error);
     }
+    if (!has_rate && !waits_for_trigger(camera_)) return {};
     arv_camera_clear_triggers(camera_, error.out());
     return done("TriggerMode", error);
   }

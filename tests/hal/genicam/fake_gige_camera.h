@@ -27,8 +27,8 @@
 
 namespace orbwatch::tests {
 
-/// Description of Aravis' fake camera and the features of a thermal one.
-inline std::string thermal_description() {
+/// Description of Aravis' fake camera.
+inline std::string standard_description() {
   // This call links the library that contains the resource.
   EXPECT_EQ(arv_get_major_version(), 0U);
   GBytes* const standard = g_resources_lookup_data("/org/aravis/arv-fake-camera.xml",
@@ -37,6 +37,12 @@ inline std::string thermal_description() {
   const char* const characters = static_cast<const char*>(g_bytes_get_data(standard, &size));
   std::string text(characters, size);
   g_bytes_unref(standard);
+  return text;
+}
+
+/// Description of Aravis' fake camera and the features of a thermal one.
+inline std::string thermal_description() {
+  std::string text = standard_description();
   std::ifstream file(std::string(ORBWATCH_SOURCE_DIR) + "/tests/hal/genicam/thermal_features.xml");
   const std::string features{std::istreambuf_iterator<char>(file), {}};
   const std::string root = "<Category Name=\"Root\" NameSpace=\"Standard\">";
@@ -54,8 +60,9 @@ class FakeGigeCamera {
   struct Options {
     double lost_per_thousand = 0;  ///< lost packets per thousand
     std::string interface = "lo";
-    std::string address = kAddress;  ///< address of that interface
-    bool is_thermal = false;         ///< has the features of thermal_description()
+    std::string address = kAddress;       ///< address of that interface
+    bool is_thermal = false;              ///< has the features of thermal_description()
+    std::vector<std::string> lacks = {};  ///< names of features that it does not have
   };
 
   explicit FakeGigeCamera(Options options) : options_(std::move(options)) { start(); }
@@ -66,10 +73,10 @@ class FakeGigeCamera {
     std::vector<std::string> arguments{
         "/usr/bin/arv-fake-gv-camera-0.8",         "-i", options_.interface, "-s", kSerial, "-r",
         std::to_string(options_.lost_per_thousand)};
-    if (options_.is_thermal) {
-      const auto description = folder_ / "thermal.xml";
-      std::ofstream(description) << thermal_description();
-      arguments.insert(arguments.end(), {"-g", description.string()});
+    if (options_.is_thermal || !options_.lacks.empty()) {
+      const auto file = folder_ / "features.xml";
+      std::ofstream(file) << description();
+      arguments.insert(arguments.end(), {"-g", file.string()});
     }
     program_.emplace(arguments, folder_ / "fake.log");
     ASSERT_TRUE(
@@ -84,6 +91,15 @@ class FakeGigeCamera {
   }
 
  private:
+  std::string description() const {
+    std::string text = options_.is_thermal ? thermal_description() : standard_description();
+    for (const std::string& feature : options_.lacks) {
+      const std::string name = "Name=\"" + feature + "\"";
+      text.replace(text.find(name), name.size(), "Name=\"No" + feature + "\"");
+    }
+    return text;
+  }
+
   TemporaryFolder folder_;
   Options options_;
   std::optional<Subprocess> program_;

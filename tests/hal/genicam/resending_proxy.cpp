@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace orbwatch::tests {
 namespace {
@@ -34,6 +35,12 @@ std::uint32_t take(std::span<const std::byte> bytes, std::size_t at, std::size_t
   return value;
 }
 
+/// Camera's stamp in the first packet of a frame.
+std::uint64_t stamp_of(std::span<const std::byte> packet) {
+  constexpr std::size_t kStamp = kHeader + 4;
+  return std::uint64_t{take(packet, kStamp, 4)} << 32 | take(packet, kStamp + 4, 4);
+}
+
 void put(std::span<std::byte> bytes, std::size_t at, std::uint32_t value) {
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (24 - 8 * i));
 }
@@ -60,8 +67,10 @@ hal::FileDescriptor bound_socket(const sockaddr_in& address) {
 
 }  // namespace
 
-ResendingProxy::ResendingProxy(const std::string& address, double lost_per_thousand)
+ResendingProxy::ResendingProxy(const std::string& address, double lost_per_thousand,
+                               LosesFirst loses_first)
     : loses_(lost_per_thousand / 1000),
+      loses_first_(std::move(loses_first)),
       control_(bound_socket(address_of(address, kPort))),
       upstream_(bound_socket(address_of("127.0.0.1", 0))),
       stream_(bound_socket(address_of("0.0.0.0", 0))) {
@@ -146,6 +155,7 @@ void ResendingProxy::on_stream(Bytes packet) {
     std::erase_if(kept_, [frame](const auto& kept) {
       return static_cast<std::uint16_t>(frame - kept.first.first) > kFrames;
     });
+    if (loses_first_ && loses_first_(stamp_of(packet))) return;
   }
   kept_[{frame, id}] = {packet.begin(), packet.end()};
   if (send_or_lose(packet) || last_injured_ == frame) return;

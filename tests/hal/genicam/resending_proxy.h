@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <random>
@@ -26,8 +27,13 @@ namespace orbwatch::tests {
 /// the thread that makes it.
 class ResendingProxy {
  public:
-  /// Listens at `address`; loses `lost_per_thousand` of a thousand packets.
-  ResendingProxy(const std::string& address, double lost_per_thousand);
+  /// Called on the proxy's thread with the camera's stamp of each frame, in ns. True: the frame's
+  /// first packet is lost, and not resent.
+  using LosesFirst = std::function<bool(std::uint64_t stamp)>;
+
+  /// Listens at `address`; loses `lost_per_thousand` of a thousand packets, and more by
+  /// `loses_first`.
+  ResendingProxy(const std::string& address, double lost_per_thousand, LosesFirst loses_first = {});
   ResendingProxy(const ResendingProxy&) = delete;
   ResendingProxy& operator=(const ResendingProxy&) = delete;
   ~ResendingProxy();
@@ -49,6 +55,7 @@ class ResendingProxy {
   bool send_or_lose(std::span<const std::byte> packet);
 
   std::bernoulli_distribution loses_;
+  LosesFirst loses_first_;
   std::mt19937 random_{11};
   hal::FileDescriptor control_;   ///< socket to the client
   hal::FileDescriptor upstream_;  ///< socket to the camera

@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t kMostBuffers = 8;
 constexpr std::size_t kLargestBuffer = std::size_t{1} << 20;
+constexpr std::uint32_t kTriggerMode = V4L2_CID_USER_BASE + 0x1000;  // a control of a driver's own
 
 /// The device and its only stream.
 struct State {
@@ -90,6 +91,17 @@ int set_format(State& fake, v4l2_format& format, bool sets) {
   return 0;
 }
 
+/// Describes the only control to a query for the one after an id.
+int query_control(const State& fake, v4l2_query_ext_ctrl& control) {
+  if (!fake.device.trigger_mode) return refuse(EINVAL);
+  if ((control.id & ~V4L2_CTRL_FLAG_NEXT_CTRL) >= kTriggerMode) return refuse(EINVAL);
+  control.id = kTriggerMode;
+  control.type = V4L2_CTRL_TYPE_BOOLEAN;
+  control.maximum = 1;
+  std::memcpy(control.name, "Trigger Mode", 13);
+  return 0;
+}
+
 int request_buffers(State& fake, v4l2_requestbuffers& request) {
   if (request.memory != V4L2_MEMORY_MMAP) return refuse(EINVAL);
   request.count = std::min<std::uint32_t>(request.count, kMostBuffers);
@@ -113,6 +125,7 @@ int dequeue(State& fake, int file, v4l2_buffer& buffer) {
   if (!fake.streams || ::read(file, &ticks, sizeof ticks) != sizeof ticks || fake.queued.empty()) {
     return refuse(EAGAIN);
   }
+  if (fake.device.trigger_mode.value_or(0) != 0) return refuse(EAGAIN);
   const std::uint32_t index = fake.queued.front();
   fake.queued.pop_front();
   const std::uint32_t size = fill(fake, fake.memory[index]);
@@ -139,6 +152,14 @@ int answer(State& fake, int file, unsigned long code, void* argument) {
       return set_format(fake, as<v4l2_format>(argument), true);
     case VIDIOC_G_FMT:
       return set_format(fake, as<v4l2_format>(argument), false);
+    case VIDIOC_QUERY_EXT_CTRL:
+      return query_control(fake, as<v4l2_query_ext_ctrl>(argument));
+    case VIDIOC_G_EXT_CTRLS:
+      as<v4l2_ext_controls>(argument).controls->value = fake.device.trigger_mode.value_or(0);
+      return 0;
+    case VIDIOC_S_EXT_CTRLS:
+      fake.device.trigger_mode = std::int32_t{as<v4l2_ext_controls>(argument).controls->value};
+      return 0;
     case VIDIOC_REQBUFS:
       return request_buffers(fake, as<v4l2_requestbuffers>(argument));
     case VIDIOC_QUERYBUF:
@@ -181,6 +202,11 @@ void connect(const FakeDevice& device) {
   const std::lock_guard lock(fake.mutex);
   fake.device = device;
   std::tie(fake.width, fake.height) = device.sizes.front();
+}
+
+std::optional<std::int32_t> trigger_mode() {
+  const std::lock_guard lock(state().mutex);
+  return state().device.trigger_mode;
 }
 
 }  // namespace orbwatch::tests

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,11 +19,16 @@ struct FakeDevice {
   /// Fills a frame of the current size, row by row without padding.
   void (*draw)(std::span<std::uint16_t> words, std::size_t width) = nullptr;
   std::vector<std::byte> jpeg = {};  ///< every frame, where nothing is drawn
+  /// Value of its control TriggerMode, if it has one; no frame comes while it is not 0.
+  std::optional<std::int32_t> trigger_mode = std::nullopt;
 };
 
 inline constexpr const char* kFakeDevice = "/dev/video-fake";
 
 /// Connects the device, in place of the previous one. Call only while no camera runs.
 void connect(const FakeDevice& device);
+
+/// Present value of the connected device's control TriggerMode.
+std::optional<std::int32_t> trigger_mode();
 
 }  // namespace orbwatch::tests
