@@ -58,6 +58,11 @@ fs::path module_file(std::string_view back_end) {
   return module_folder() / ("camera-" + std::string(back_end) + ".so");
 }
 
+std::string install_command(std::string_view back_end) {
+  const std::string package = package_of(back_end);
+  return "sudo apt install ./" + package + "_*.deb (of a bundle: sudo ./install " + package + ")";
+}
+
 Result<const CameraModule*> load_module(const fs::path& file, std::string_view back_end) {
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
@@ -76,8 +81,8 @@ Result<const CameraModule*> module_of(std::string_view back_end) {
   std::error_code error;
   if (!fs::exists(file, error)) {
     return fail("the camera needs the module " + std::string(back_end) +
-                ", which is not installed: apt install " + package_of(back_end) + " (looked for " +
-                file.string() + ")");
+                ", which is not installed: " + install_command(back_end) + "; looked for " +
+                file.string());
   }
   return load_module(file, back_end);
 }

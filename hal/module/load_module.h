@@ -17,6 +17,10 @@ std::filesystem::path module_folder();
 /// File of a back-end's module, even if it does not exist.
 std::filesystem::path module_file(std::string_view back_end);
 
+/// Command that installs a back-end's package, which no repository has, from the folder of the
+/// packages, and the one of a bundle. Thread-safe.
+std::string install_command(std::string_view back_end);
+
 /// Loads a module from a file and checks that it fits this program and belongs to the back-end. The
 /// error names file, reason and remedy. A module that fits stays loaded, and loading it again costs
 /// little; one that does not is unloaded. Thread-safe.

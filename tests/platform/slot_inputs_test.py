@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A slot of an image is made again when the builder's files differ in any way, not only in their contents, when
-Debian's packages are newer, and with packages of the present commit. Programs that need a chroot are replaced."""
+Debian's packages are newer, and with packages of the present commit. Relative paths in the options are those of the
+caller's folder. Programs that need a chroot are replaced."""
 import os
 import pathlib
 import shutil
@@ -82,9 +83,9 @@ class Tree(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="orbwatch-slot-")
         self.addCleanup(folder.cleanup)
         self.tree = pathlib.Path(folder.name)
-        copies = {name: (ROOT / name).read_text(encoding="utf-8")
-                  for name in ("platform/build-deb", "platform/image/slot.sh", "tests/support/cached")}
-        copies["platform/build-deb"] = copies["platform/build-deb"].replace("((EUID == 0))", "true")
+        copies = {name: (ROOT / name).read_text(encoding="utf-8").replace("((EUID == 0))", "true")
+                  for name in ("platform/build-deb", "platform/build-image", "platform/build-bundle",
+                               "platform/image/slot.sh", "tests/support/cached")}
         for name, text in {**copies, **FILES, **PROGRAMS}.items():
             self.write(name, text)
             (self.tree / name).chmod(0o755)
@@ -179,6 +180,42 @@ class SystemsOfDebian(Tree):
         for entry in (self.tree / "build/chroots").glob("image-*"):
             shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
         self.assertEqual(self.make(), "newer newer ")
+
+
+class OptionsFromAnotherFolder(Tree):
+    def build(self, script, *more):
+        """Returns what a build, called in another folder by relative paths, passed on, and that folder."""
+        folder = tempfile.TemporaryDirectory(prefix="orbwatch-caller-")
+        self.addCleanup(folder.cleanup)
+        caller = pathlib.Path(folder.name).resolve()
+        for name in ("site/site.toml", "files/etc/file", "packages/orbwatch_1.2_amd64.deb", "cert.pem", "key.pem"):
+            (caller / name).parent.mkdir(parents=True, exist_ok=True)
+            (caller / name).touch()
+        self.write("build/debian", "")
+        self.write("platform/image/make_slot", '#!/bin/sh\nmkdir $1\necho "$@" >build/options\n')
+        for program in ("make_disk", "make_bundle"):
+            self.write(f"platform/image/{program}", '#!/bin/sh\necho "$@" >>build/options\ntouch "$1"\n')
+            (self.tree / "platform/image" / program).chmod(0o755)
+        self.write("platform/sign-bundle", "#!/bin/sh\n")
+        (self.tree / "platform/sign-bundle").chmod(0o755)
+        done = subprocess.run(
+            [os.path.relpath(self.tree / script, caller), "--suite", "trixie", "--arch", "amd64", "--version", "1",
+             "--packages", "packages", "--configuration", "site", "--files", "files", "--cert", "cert.pem", *more],
+            cwd=caller, capture_output=True, check=False, text=True, env=self.environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.tree / "build/options").read_text(encoding="utf-8").split(), caller
+
+    def test_an_image_takes_and_leaves_files_of_the_callers_folder(self):
+        options, caller = self.build("platform/build-image", "-o", "orbwatch.img")
+        for name in ("cert.pem", "site", "files", "packages/orbwatch_1.2_amd64.deb", "orbwatch.img"):
+            self.assertIn(str(caller / name), options)
+        self.assertTrue((caller / "orbwatch.img").exists())
+
+    def test_an_update_takes_and_leaves_files_of_the_callers_folder(self):
+        options, caller = self.build("platform/build-bundle", "--key", "key.pem", "-o", "update.raucb")
+        for name in ("cert.pem", "key.pem", "site", "files", "packages/orbwatch_1.2_amd64.deb", "update.raucb"):
+            self.assertIn(str(caller / name), options)
+        self.assertTrue((caller / "update.raucb").exists())
 
 
 if __name__ == "__main__":

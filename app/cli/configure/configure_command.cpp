@@ -110,7 +110,7 @@ Result<std::string> try_out(const Options& o, const fs::path& file, const fs::pa
   const auto runs = [&] { return await_trial(folder, unit_of(o.config)); };
   return request_trial(folder, *trial).and_then(runs).map([&] {
     return difference + "runs for " + std::to_string(trial_of(o)) +
-           " seconds from now on; keep it with: orbwatch configure --confirm" + o.named + "\n";
+           " seconds from now on; keep it with: sudo orbwatch configure --confirm" + o.named + "\n";
   });
 }
 

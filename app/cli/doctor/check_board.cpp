@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kNearlyHot = 10;  // K below the temperature at which the board slows down
 
+/// The package is installed from its file: no repository has it.
+constexpr const char* kReinstall = "sudo apt install --reinstall ./orbwatch_*.deb";
+
 std::string whole(double value) { return std::to_string(std::lround(value)); }
 
 /// Package to install for a driver that the kernel lacks.
@@ -66,12 +69,12 @@ Diagnoses check_board(const Facts& facts) {
   const BoardFacts& board = facts.board;
   Diagnoses found;
   for (const std::string& problem : board.problems) {
-    found.push_back(warning(problem, "sudo apt install --reinstall orbwatch"));
+    found.push_back(warning(problem, kReinstall));
   }
   const std::string model = board.model.empty() ? "a board without a name" : board.model;
   if (!board.has_folder) {
     return {warning(model + ": the files of boards are not installed in " + board.folder.string(),
-                    "sudo apt install --reinstall orbwatch")};
+                    kReinstall)};
   }
   if (!board.known) {
     found.push_back(warning(model + ": no file in " + board.folder.string() + " is for it",

@@ -3,6 +3,7 @@
 
 #include "app/cli/doctor/checks.h"
 #include "hal/lines/find_line.h"
+#include "hal/module/load_module.h"
 
 /// Checks of memory for cameras, cameras, digital lines.
 namespace orbwatch::app::cli::doctor {
@@ -55,7 +56,7 @@ Diagnosis camera_diagnosis(const CameraFacts& camera, const BoardFacts& board) {
     case Presence::Closed:
       return fault(who + ": " + camera.error, join_group("video"));
     case Presence::NoModule:
-      return fault(who + ": " + camera.error, "sudo apt install orbwatch-camera-" + camera.module);
+      return fault(who + ": " + camera.error, hal::install_command(camera.module));
     case Presence::Missing:
       break;
   }

@@ -3,6 +3,9 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "app/files/runtime/site_file.h"
 
 namespace orbwatch::app::cli {
 namespace {
@@ -16,6 +19,17 @@ std::string degrees_text(double degrees) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", degrees);
   return text;
+}
+
+/// Command that runs the site. Beside an installed service a second orbwatchd would be refused: the
+/// service holds state, ports and cameras.
+std::string next_step(const std::filesystem::path& site) {
+  const std::filesystem::path installed = files::site_file({});
+  std::error_code unknown;
+  const bool is_beside = std::filesystem::exists(installed, unknown) &&
+                         !std::filesystem::equivalent(installed, site, unknown);
+  return is_beside ? "; try it: sudo orbwatch configure " + site.string()
+                   : ": run orbwatchd --config " + site.string();
 }
 
 }  // namespace
@@ -38,8 +52,8 @@ std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
   for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
   const bool is_whole = left_out(setup).empty();
   return text +
-         (is_whole ? "written and checked: " : "written and checked, without what is missing: ") +
-         "run orbwatchd --config " + site.string() + "\n";
+         (is_whole ? "written and checked" : "written and checked, without what is missing") +
+         next_step(site) + "\n";
 }
 
 std::string setup_json(const Setup& setup, const std::filesystem::path& site) {

@@ -8,7 +8,9 @@
 
 namespace orbwatch::app::cli {
 
-/// Found and missing facts of a site, for people. Both reentrant.
+/// Found and missing facts of a site, for people, and the command that runs it: as a trial of the
+/// installed service if there is its configuration, files::site_file(). Both reentrant while
+/// nothing changes the environment.
 std::string setup_text(const Setup& setup, const std::filesystem::path& site);
 
 /// The same as one JSON document.

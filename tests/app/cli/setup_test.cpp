@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <map>
 #include <sstream>
 
 #include "app/files/resolve.h"
@@ -91,6 +93,22 @@ TEST_F(Setup, SaysWhatIsMissingAndWhatAddsIt) {
   EXPECT_NE(said.find("orbwatch place --rig " + path("site/rig.toml") + " --camera colour"),
             std::string::npos)
       << said;
+}
+
+TEST_F(Setup, NamesTheTrialOfAnInstalledServiceElseTheDaemon) {
+  const std::string site = path("site/site.toml");
+  const std::string run_daemon = "written and checked: run orbwatchd --config " + site + "\n";
+  const std::map<std::string, std::string> expected{
+      {path("missing.toml"), run_daemon},
+      {site, run_daemon},
+      {write("installed.toml", std::string()),
+       "written and checked; try it: sudo orbwatch configure " + site + "\n"}};
+  for (const auto& [installed, next] : expected) {
+    ::setenv("ORBWATCH_CONFIG", installed.c_str(), 1);
+    EXPECT_EQ(set_up({"--camera", picture(), "--force"}), 0) << said;
+    EXPECT_NE(said.find(next), std::string::npos) << installed << ": " << said;
+  }
+  ::unsetenv("ORBWATCH_CONFIG");
 }
 
 TEST_F(Setup, TellsProgramsTheSame) {

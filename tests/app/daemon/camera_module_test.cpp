@@ -61,7 +61,7 @@ TEST_F(WithoutModules, ACameraIsAbsentAndTheLogSaysWhatToInstall) {
   Subprocess daemon = start(write_site());
   EXPECT_TRUE(says(daemon,
                    "camera far: the camera needs the module libcamera, which is not "
-                   "installed: apt install orbwatch-camera-libcamera"))
+                   "installed: sudo apt install ./orbwatch-camera-libcamera_*.deb"))
       << daemon.output();
   ASSERT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") > 0; })) << daemon.output();
   EXPECT_EQ(read("camera_0_fault"), 1) << "not connected, or cannot be opened";

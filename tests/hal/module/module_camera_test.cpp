@@ -43,9 +43,11 @@ class ModuleCamera : public testing::Test {
 };
 
 TEST_F(ModuleCamera, IsAbsentWithoutTheModuleAndSaysWhatToInstall) {
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("the camera needs the module libcamera, which is not "
-                                         "installed: apt install orbwatch-camera-libcamera"),
-                               HasSubstr(folder_.path().string())));
+  EXPECT_THAT(refusal(),
+              AllOf(HasSubstr("the camera needs the module libcamera, which is not "
+                              "installed: sudo apt install ./orbwatch-camera-libcamera_*.deb (of "
+                              "a bundle: sudo ./install orbwatch-camera-libcamera)"),
+                    HasSubstr(folder_.path().string())));
   EXPECT_THAT(list_module_cameras(), IsEmpty());
   EXPECT_THAT(module_versions(), testing::ElementsAre(Pair("libcamera", "not installed"),
                                                       Pair("genicam", "not installed"),

@@ -263,7 +263,7 @@ TEST(ReplayCamera, NeedsTheModuleForAVideoOnly) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message,
               HasSubstr("camera east: the camera needs the module video, which is not installed: "
-                        "apt install orbwatch-camera-video"));
+                        "sudo apt install ./orbwatch-camera-video_*.deb"));
   write_pictures(folder, 1);
   EXPECT_TRUE(ReplayCamera(settings_for(folder.path())).configure({}));
 }

@@ -32,9 +32,14 @@ test_programs() {
   check "its exposure is at most 2.0 of 10" inside systemd-analyze security --threshold=20 --no-pager orbwatch.service
   check "its lines are in the journal, with a level" inside sh -c \
     'journalctl --no-pager SYSLOG_IDENTIFIER=orbwatchd PRIORITY=6 | grep "runs with"'
+  check "systemd finds the modes of its folders that the unit states" has_stated_modes
   inside systemctl stop orbwatch.service
   check "orbwatch bench --simulated as the service's user" bench_speaks
   inside systemctl start orbwatch.service
+}
+
+has_stated_modes() {
+  inside journalctl --no-pager >"$work/journal" && ! grep "orbwatch.*mode is different" "$work/journal"
 }
 
 # Writes in the service's view of the files.
@@ -138,6 +143,7 @@ test_configured() {
 test_second_machine() {
   check "a second machine on the board" begin_second_machine
   check "beside the first one" wait_for "$patience" measures
+  check "with the modes of folders that its unit states" has_stated_modes
   test_second_configured
   end_second_machine
 }

@@ -117,12 +117,14 @@ TEST_F(Checks, Board) {
   expect(check_board(facts), Level::Ok, "Raspberry Pi 5 Model B Rev 1.0");
   EXPECT_THAT(one(check_board(facts)).text, HasSubstr("not run"));
   facts.board.problems = {"a.toml:1: name: is missing"};
-  expect(check_board(facts), Level::Warning, "a.toml:1", "apt install");
+  expect(check_board(facts), Level::Warning, "a.toml:1",
+         "sudo apt install --reinstall ./orbwatch_*.deb");
   facts.board.problems.clear();
   facts.board.known.reset();
   expect(check_board(facts), Level::Warning, "no file in", "platform/boards");
   facts.board.has_folder = false;
-  expect(check_board(facts), Level::Warning, "not installed in", "apt install");
+  expect(check_board(facts), Level::Warning, "not installed in",
+         "sudo apt install --reinstall ./orbwatch_*.deb");
 }
 
 TEST_F(Checks, Kernel) {
@@ -160,7 +162,8 @@ TEST_F(Checks, Cameras) {
   found.presence = Presence::NoModule;
   found.module = "genicam";
   expect(check_cameras(facts), Level::Fault, "no permission",
-         "sudo apt install orbwatch-camera-genicam");
+         "sudo apt install ./orbwatch-camera-genicam_*.deb (of a bundle: sudo ./install "
+         "orbwatch-camera-genicam)");
 }
 
 TEST_F(Checks, AMissingCameraComesWithTheOthersAndItsOverlay) {
