@@ -4,13 +4,14 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True
 SCRIPT = pathlib.Path(__file__).resolve().parent / "drawn.sh"
 
 
-class LastWhole(unittest.TestCase):
+class Repository(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -26,6 +27,8 @@ class LastWhole(unittest.TestCase):
         self.git("commit", "--quiet", "--allow-empty", "--message", "a")
         return self.git("rev-parse", "HEAD")
 
+
+class LastWhole(Repository):
     def report(self, **rows):
         """Rows by part: number of the commit, and the result."""
         (self.top / "tests").mkdir(exist_ok=True)
@@ -61,6 +64,28 @@ class LastWhole(unittest.TestCase):
         self.assertEqual(self.last("machines"), self.commits[1])
         self.report(run=(2, "passed"))
         self.assertEqual(self.last("machines"), "")
+
+class Due(Repository):
+    """Whether a stage is to run of whose folder everything has changed."""
+
+    def is_due(self, **variables):
+        settings = "".join(f"{name}={value}; " for name, value in variables.items())
+        (self.top / "tests/support").mkdir(parents=True, exist_ok=True)
+        changed = self.top / "tests/support/changed"
+        changed.write_text("#!/bin/sh\nexit 0\n")
+        changed.chmod(0o755)
+        ran = subprocess.run(["bash", "-c", f"set -uo pipefail; . {SCRIPT}; part=page; {settings}due name folder"],
+                             cwd=self.top, check=False, capture_output=True, text=True)
+        self.assertEqual(ran.stderr, "")
+        return ran.returncode == 0
+
+    def test_a_changed_one_is_due_until_the_time_is_over(self):
+        self.assertTrue(self.is_due())
+        self.assertTrue(self.is_due(ORBWATCH_UNTIL=int(time.time()) + 3600))
+        self.assertFalse(self.is_due(ORBWATCH_UNTIL=int(time.time()) - 1))
+
+    def test_a_whole_run_has_no_end(self):
+        self.assertTrue(self.is_due(whole=1, ORBWATCH_UNTIL=1))
 
 
 if __name__ == "__main__":
