@@ -114,8 +114,10 @@ TEST(Translations, LinkTranslatedNeighbours) {
 }
 
 /// Names of buttons, pages and cards in a manual: *Align*, in Japanese 「位置合わせ」 or 「…
-/// の色」.
-std::vector<std::string> labels_of(const std::string& text) {
+/// の色」. An asterisk of a command is no mark.
+std::vector<std::string> labels_of(const std::string& manual) {
+  static const std::regex kCommands("```[^`]*```");
+  const std::string text = std::regex_replace(manual, kCommands, "");
   static const std::regex kLabel(
       R"rx((?:^|[^*\\])\*([^*\s][^*]*)\*(?!\*)|「(?:… )?((?:(?!」).)+)」)rx");
   std::vector<std::string> labels;
