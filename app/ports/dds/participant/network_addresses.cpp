@@ -4,7 +4,6 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <charconv>
@@ -32,23 +31,20 @@ std::optional<std::string> bound_address(int file) {
   return hal::is_unspecified(address) ? std::nullopt : std::optional(std::move(address));
 }
 
-/// The inode number of the open file `file`; nullopt: not a socket.
-std::optional<ino_t> socket_inode(int file) {
-  struct stat status {};
-  if (::fstat(file, &status) != 0 || !S_ISSOCK(status.st_mode)) return {};
-  return status.st_ino;
-}
-
-/// Calls `visit` with the number of each open file of this process.
+/// Calls `visit` with the number and the name, "socket:[INODE]", of each open socket of this
+/// process. Reads names only: the other files belong to other threads, which may close them.
 template <class Visit>
-void for_each_open_file(const Visit& visit) {
+void for_each_socket(const Visit& visit) {
   std::error_code unreadable;  // e.g. without /proc: further ones stay unknown
   std::filesystem::directory_iterator open_file("/proc/self/fd", unreadable);
   for (; open_file != std::filesystem::directory_iterator(); open_file.increment(unreadable)) {
-    const std::string name = open_file->path().filename();
+    std::error_code closed;
+    const std::string name = std::filesystem::read_symlink(*open_file, closed);
+    if (!name.starts_with("socket:")) continue;
+    const std::string number = open_file->path().filename();
     int file = -1;
-    std::from_chars(name.data(), name.data() + name.size(), file);
-    visit(file);
+    std::from_chars(number.data(), number.data() + number.size(), file);
+    visit(file, name);
   }
 }
 
@@ -75,19 +71,16 @@ std::optional<std::vector<NetworkAddress>> network_addresses() {
   return addresses;
 }
 
-std::set<ino_t> open_sockets() {
-  std::set<ino_t> sockets;
-  for_each_open_file([&sockets](int file) {
-    if (const auto inode = socket_inode(file)) sockets.insert(*inode);
-  });
+std::set<std::string> open_sockets() {
+  std::set<std::string> sockets;
+  for_each_socket([&sockets](int, const std::string& name) { sockets.insert(name); });
   return sockets;
 }
 
-std::set<std::string> bound_addresses(const std::set<ino_t>& earlier) {
+std::set<std::string> bound_addresses(const std::set<std::string>& earlier) {
   std::set<std::string> addresses;
-  for_each_open_file([&](int file) {
-    const auto inode = socket_inode(file);
-    if (!inode || earlier.contains(*inode)) return;
+  for_each_socket([&](int file, const std::string& name) {
+    if (earlier.contains(name)) return;
     if (auto address = bound_address(file)) addresses.insert(std::move(*address));
   });
   return addresses;

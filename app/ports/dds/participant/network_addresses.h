@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <optional>
 #include <set>
 #include <string>
@@ -22,14 +20,14 @@ struct NetworkAddress {
 /// that loses its link keeps its address unless the network manager removes it. Thread-safe.
 std::optional<std::vector<NetworkAddress>> network_addresses();
 
-/// Inode numbers of the sockets that this process has open. Thread-safe.
-std::set<ino_t> open_sockets();
+/// The sockets that this process has open, by the kernel's names. Thread-safe.
+std::set<std::string> open_sockets();
 
 /// The addresses to which this process has bound UDP sockets that are not in `earlier`. Cyclone DDS
 /// binds one to each address that it sends from, and has no call that returns them: the sockets
 /// opened while it creates a domain are its own, earlier ones belong to others, such as GigE
 /// cameras. Thread-safe.
-std::set<std::string> bound_addresses(const std::set<ino_t>& earlier = {});
+std::set<std::string> bound_addresses(const std::set<std::string>& earlier = {});
 
 /// Decides whether a change of addresses makes a participant rejoin its domain. Cyclone DDS chooses
 /// its interfaces by its profile from the addresses that the host has when it joins, and ignores
