@@ -8,8 +8,8 @@ import tempfile
 import unittest
 
 DEBIAN_APT = pathlib.Path(__file__).with_name("debian_apt")
-CLASSIC = "deb http://deb.debian.org/debian RELEASE main\ndeb http://deb.debian.org/debian RELEASE-updates main\n"
-DEB822 = "Types: deb\nURIs: http://deb.debian.org/debian\nSuites: RELEASE RELEASE-updates\nComponents: main\n"
+CLASSIC = "deb http://localhost/debian RELEASE main\ndeb http://localhost/debian RELEASE-updates main\n"
+DEB822 = "Types: deb\nURIs: http://localhost/debian\nSuites: RELEASE RELEASE-updates\nComponents: main\n"
 
 
 def release_here():
