@@ -3,10 +3,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
+
+#include "hal/boot_id.h"
 
 namespace orbwatch::app {
 namespace {
@@ -30,10 +33,10 @@ std::uint64_t start_time() {
 
 ProcessIdentity this_process() {
   ProcessIdentity identity{.id = static_cast<std::uint32_t>(::getpid()), .start = start_time()};
-  std::ifstream boot("/proc/sys/kernel/random/boot_id");
-  const bool is_read = static_cast<bool>(
-      boot.read(identity.boot.data(), static_cast<std::streamsize>(identity.boot.size())));
-  return is_read && identity.start != 0 ? identity : ProcessIdentity{};
+  const std::string boot = hal::boot_id();
+  if (boot.size() < identity.boot.size() || identity.start == 0) return {};
+  std::copy_n(boot.begin(), identity.boot.size(), identity.boot.begin());
+  return identity;
 }
 
 }  // namespace orbwatch::app

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "hal/atomic_file.h"
+#include "hal/boot_id.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::update {
@@ -28,11 +29,6 @@ Lines lines_of(const fs::path& file) {
   std::getline(in, lines.first);
   std::getline(in, lines.second);
   return lines;
-}
-
-/// Identity of the computer's present start; files of the kernel are not read by their size.
-std::string start_of(const fs::path& root) {
-  return lines_of(root / "proc/sys/kernel/random/boot_id").first;
 }
 
 /// Time since the computer's start, as /proc/uptime has it.
@@ -85,7 +81,7 @@ fs::path ImageFiles::record() const { return root_ / "data/update/tried"; }
 std::optional<Tried> ImageFiles::tried() const {
   const Lines lines = lines_of(record());
   if (lines.first.empty()) return std::nullopt;
-  return Tried{lines.first, !lines.second.empty() && lines.second == start_of(root_)};
+  return Tried{lines.first, !lines.second.empty() && lines.second == hal::boot_id(root_)};
 }
 
 std::string ImageFiles::reason_of_return(const std::string& version) const {
@@ -97,7 +93,7 @@ Result<> ImageFiles::prepare_record(const std::string& version) const {
   const fs::path file = record().string() + ".new";
   std::error_code none;  // the write below fails then
   fs::create_directories(file.parent_path(), none);
-  return hal::write_file(file, version + "\n" + start_of(root_) + "\n", hal::FileAccess::Folder)
+  return hal::write_file(file, version + "\n" + hal::boot_id(root_) + "\n", hal::FileAccess::Folder)
       .map_error([&](const Error& error) {
         return Error{error.message + "; the data partition is full or has a fault"};
       });
